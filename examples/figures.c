@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's figure 6: a body where it first meets the ground, just before the solve of the impact, with the faces that the
- * collision test was given in colour. Three pictures: the scene, a close view, and a view from below.
+ * The paper's figure 6: a body where it first meets the ground, just before the solve of the
+ * impact. The faces that went to the collision test are coloured. Three pictures: the scene, a
+ * close view, and a view from below.
  *
  * Options: scene=NAME (of scene.h)  pictures=DIRECTORY
  */
@@ -28,7 +29,7 @@ static int expect(int result, const char *what)
     return result;
 }
 
-/* By body number: the ramp of each face; 0 is the usual one. */
+/* By body number: the ramp of each face; 0 is the default one. */
 static uint8_t ramps[2][SCENE_FIELD_FACES];
 
 /* True if the body hits something in one more step. */
@@ -88,7 +89,7 @@ static bool hits_within(struct carom_world *world, const struct carom_body_state
     return hits(world);
 }
 
-/* Move the body as far as it comes without a hit. That is the world's last step. */
+/* Move the body as far as it goes without a hit. That is the world's last step. */
 static void stop_before_hit(struct carom_world *world, const struct carom_body_state *before)
 {
     const carom_v3_q40 none = {{0, 0, 0}};
@@ -141,7 +142,10 @@ static void picture(const struct carom_world *world, const struct carom_camera *
     port_present();
 }
 
-/* A close view of where the body touches: from the side it leans to, or from below if the ground there hides nothing. */
+/*
+ * A close view of the place where the body touches: from the side to which it leans, or from below
+ * if the ground hides nothing there.
+ */
 static struct carom_camera close_by(const struct carom_camera *camera, const carom_v3_q32 *body,
                                     const carom_v3_q32 *point, bool under)
 {

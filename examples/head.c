@@ -3,11 +3,11 @@
  * Play a scene of scene.h: each frame steps, draws, shows, and prints a row of figures to the console.
  *
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
- *          budget=N: ticks that a step may take, counted as its stages are; column "over" names the costliest stage of a
- *          step that takes more
- *          only=N: draw and show frame N only
- *          scenes=1: print the names of the scenes that scene.h knows, with a line about each, and end
- *          play=1: the pad plays (scene_play.h). Without arguments it runs as a game, without end
+ *                   budget=N: ticks that a step may take, counted like its stages; column "over"
+ *          names the costliest stage of a step that takes more          only=N: draw and show
+ *          frame N only          scenes=1: print the names of the scenes that scene.h knows, with
+ *          a line about each, and end          play=1: the pad plays (scene_play.h). Without
+ *          arguments it runs as a game, without end
  *
  * A game of scene_games.h obeys the pad's keys with and without play=1.
  */
@@ -19,7 +19,7 @@
 #include "show.h"
 
 #ifdef SCENE_ROM
-/* A board with meshes in ROM has memory for no other mesh, and for none that moves. */
+/* A board with meshes in ROM has no memory for other meshes, nor for moving ones. */
 static uint8_t mesh_block[1];
 #define BOARD_MOVES   SCENE_GAMES /* something runs before each frame */
 #define USER_VERTICES SCENE_HEAD_VERTICES
@@ -39,7 +39,9 @@ static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #endif
 
-/* The scene if none is asked for, and what a tick counts on a port that counts no instructions. */
+/*
+ * The scene if the options name none; and what a tick counts on a port that counts no instructions.
+ */
 #ifndef BOARD_SCENE
 #define BOARD_SCENE head
 #endif
@@ -49,7 +51,7 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #define TEXT_OF(name) #name
 #define TEXT(macro)   TEXT_OF(macro)
 
-/* Enough to draw any scene at once, or what the board has; 0: the board shows nothing. */
+/* Enough to draw any scene in one part, or what the board has; 0: the board shows nothing. */
 #ifndef BOARD_DRAW_BYTES
 #define BOARD_DRAW_BYTES                                                                           \
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
@@ -81,7 +83,7 @@ static unsigned long cost(uint32_t ticks)
     return (unsigned long)(port_instructions(port_ticks_hz) ? port_instructions(ticks) : ticks);
 }
 
-/* The most ticks that amount to at most so many instructions. */
+/* The largest number of ticks that is at most so many instructions. */
 static uint32_t ticks_of(unsigned long most)
 {
     uint32_t ticks = 0;
@@ -208,13 +210,19 @@ static void say(const struct show *show, const struct carom_world *world,
     }
 }
 
-/* The colours of a scene; greys keep those of the usual palette, which tell bodies from the ground. */
+/*
+ * The colours of a scene. Displays with greys keep the default palette, which tells bodies from the
+ * ground.
+ */
 static const struct carom_paint *paint_for(const struct show *show, const struct port_fb *fb)
 {
     return !BOARD_DRAWS || fb->format == PORT_GREY4 ? NULL : show_paint(show);
 }
 
-/* Draw what changed in the upper `height` rows of a framebuffer, if there is one. Returns the ticks that it took. */
+/*
+ * Draw the changes in the upper `height` rows of a framebuffer, if there is one. Returns the ticks
+ * that it took.
+ */
 static uint32_t draw(const struct carom_world *world, const struct show *show,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
@@ -239,7 +247,7 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
     return port_ticks() - start;
 }
 
-/* The display, with the scene's own palette if it can have one. */
+/* The display, with the scene's own palette if the display can have one. */
 static struct port_fb display(const struct show *show)
 {
     struct port_fb fb = port_fb();
@@ -278,7 +286,7 @@ static struct carom_world *start(struct show *show)
     return world;
 }
 
-/* Keys that are held. Until the first key goes down, nobody plays. */
+/* The held keys. Until the first key goes down, the script plays. */
 static uint32_t keys_held(void)
 {
     static bool played;
@@ -297,7 +305,7 @@ static void report(int frames)
     const int only = (int)port_number("only", 0);
     uint32_t first;
 
-    /* draw all of the picture now, so that a frame draws only what it changes */
+    /* draw the whole picture now, so that a frame draws only its changes */
     first = only ? 0 : draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
     port_print("first picture %lu\n", cost(first));
     print_columns();

@@ -14,26 +14,26 @@
 #include "carom.h"
 
 extern const struct carom_mesh_raw character_mesh; /* a capsule, 1.75 high, about its middle */
-extern const struct carom_mesh_raw wheel_mesh;     /* of 16 sides, 0.2 wide along y */
+extern const struct carom_mesh_raw wheel_mesh;     /* a wheel with 16 sides, 0.2 wide along y */
 extern const struct carom_mesh_raw car_mesh;       /* 3.5 long along x, without wheels */
 extern const struct carom_mesh_raw door_mesh;      /* 0.9 wide along x; its hinge is the z axis */
-extern const struct carom_mesh_raw link_mesh;      /* a chain's, 0.5 long along x */
+extern const struct carom_mesh_raw link_mesh;      /* a link of a chain, 0.5 long along x */
 extern const struct carom_mesh_raw ramp_mesh;      /* 2 long along x, to a height of 0.5 */
 extern const struct carom_mesh_raw steps_mesh;     /* four steps, to a height of 0.6 */
 extern const struct carom_mesh_raw jump_mesh;      /* a ramp 3 long along x, to a height of 0.35 */
 extern const struct carom_mesh_raw tower_mesh;     /* 1.2 x 1.2, 5 high */
 extern const struct carom_mesh_raw mat_mesh;       /* 2.4 long along x, 0.03 thick */
 extern const struct carom_mesh_raw rink_mesh;      /* a floor of 8 x 6 with walls, at height 0 */
-extern const struct carom_mesh_raw puck_mesh;      /* of 8 sides, 0.5 high, from 0 */
+extern const struct carom_mesh_raw puck_mesh;      /* a puck with 8 sides, 0.5 high, from 0 */
 extern const struct carom_mesh_raw
-    gear10_mesh; /* wheels of so many teeth about y, 0.1 of diameter a tooth */
+    gear10_mesh; /* wheels with so many teeth about y, 0.1 of diameter a tooth */
 extern const struct carom_mesh_raw gear24_mesh;
 extern const struct carom_mesh_raw gear16_mesh;
 extern const struct carom_mesh_raw gear12_mesh;
 extern const struct carom_mesh_raw board_mesh;    /* 6 long along x, 4.2 high, 0.15 thick */
 extern const struct carom_mesh_raw bolt_mesh;     /* a thread of pitch 0.4 about z, up from 0 */
 extern const struct carom_mesh_raw nut_mesh;      /* its nut, six-sided, 0.63 high */
-extern const struct carom_mesh_raw hexagon_mesh;  /* its head, 0.35 high */
+extern const struct carom_mesh_raw hexagon_mesh;  /* the bolt's head, 0.35 high */
 extern const struct carom_mesh_raw domino_mesh;   /* 0.125 thick along x, 0.75 high, from 0 */
 extern const struct carom_mesh_raw pendulum_mesh; /* a ball on two rods, 1.6 below 0 */
 extern const struct carom_mesh_raw beam_mesh;     /* 2.9 long along x, 0.06 thick */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The scenes: which meshes each has, how its bodies start, and a world of them. */
+/* The scenes: their meshes, the starts of their bodies, and worlds of them. */
 #include "scene.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@
 #define RESTITUTION_Q30 (CAROM_ONE_Q30 / 2)
 #define FRICTION_Q16    (1u << 15)
 
-/* How the body starts, in mm, mm/s and mrad/s, and where the camera is. */
+/* The start of the body, in mm, mm/s and mrad/s, and the place of the camera. */
 static const struct carom_body_def head_start = {
     .position = POSITION(-1600, 600, 2800),
     .velocity = VELOCITY(900, -400, 0),
@@ -61,7 +61,7 @@ static const struct carom_camera camera = {
     .focal_q16 = 1 << 16,
 };
 
-/* A head of half the size is seen from nearer by. */
+/* A head of half the size is seen from nearer. */
 static const struct carom_camera near_camera = {
     .eye = POSITION(1250, -5050, 2950),
     .target = POSITION(-800, 150, 1050),
@@ -158,16 +158,16 @@ static void stack(int i, struct carom_body_def *def)
     def->position.c[2] = CAROM_POSITION_MM(252 + 502 * i);
 }
 
-/* How a scene's bodies start. scene_meshes has their meshes. */
+/* The start of a scene's bodies. scene_meshes has their meshes. */
 static const struct scene_recipe {
     const char *name, *text;
     const struct carom_body_def *start;
     void (*arrange)(int i, struct carom_body_def *def); /* NULL: one body, at start */
     uint8_t others;                                     /* bodies besides the first */
-    /* bounds that keep a frame short on a small board; 0: as the engine chooses */
+    /* bounds that keep a frame short on a small board; 0: the engine chooses */
     uint8_t substep_cap, sweep_cap;
     const struct scene_game *game;     /* adds the bodies */
-    const struct carom_camera *camera; /* NULL: the game's, or the usual one */
+    const struct carom_camera *camera; /* NULL: the game's camera, or the default one */
 } recipes[] = {
     {"head", "a head of 1876 faces falls on a height field of 3034", &head_start, NULL, 0, 0, 0,
      NULL, NULL},

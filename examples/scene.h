@@ -89,8 +89,8 @@ struct scene {
 };
 
 /*
- * Bytes for the meshes of any scene but `user` and the growth of the field; for those as well; and for a world of any
- * scene.
+ * Bytes for the meshes of any scene except `user` and the growth of the field; for those as well;
+ * and for a world of any scene.
  */
 #define SCENE_MESH_BYTES                                                                           \
     (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                           \
@@ -98,14 +98,14 @@ struct scene {
 #define SCENE_LARGE_MESH_BYTES                                                                     \
     (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                           \
      SCENE_MESH(SCENE_LARGE_VERTICES, SCENE_LARGE_FACES))
-/* A mesh and what it refers to. */
+/* A mesh and the memory to which it refers. */
 #define SCENE_MESH(vertices, faces)                                                                \
     ((sizeof(struct carom_mesh) + 7) / 8 * 8 + CAROM_MESH_BYTES(vertices, faces))
 #define SCENE_HEAD_VERTICES  940
 #define SCENE_HEAD_FACES     1876
 #define SCENE_FIELD_VERTICES 1596
 #define SCENE_FIELD_FACES    3034
-#define SCENE_LARGE_VERTICES 25281 /* of the finest field */
+#define SCENE_LARGE_VERTICES 25281 /* counts of the finest field */
 #define SCENE_LARGE_FACES    49928
 
 /*
@@ -123,7 +123,7 @@ struct scene {
 #define SCENE_LARGE_CAPS 33, 256, 768, 4096, 1, 4096
 #define SCENE_SHEET_CAPS 2, 1, 64, 1024, 512, 1024
 #endif
-/* If there are games, and the capacities of the one with the most bodies, the dominoes. */
+/* Whether there are games, and the capacities of the game with the most bodies, the dominoes. */
 #if defined SCENE_ROM && !defined SCENE_ROM_GAMES
 #define SCENE_GAMES     0
 #define SCENE_GAME_CAPS SCENE_LARGE_CAPS
@@ -139,7 +139,7 @@ struct scene {
 #define SCENE_WORLD_BYTES                                                                          \
     SCENE_MORE_(CAROM_WORLD_BYTES(SCENE_LARGE_CAPS), CAROM_WORLD_BYTES(SCENE_GAME_CAPS))
 
-/* The generated raw meshes; a number in a name is that of the faces. */
+/* The generated raw meshes; a number in a name is the number of faces. */
 extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head100_mesh, head450_mesh,
     head836_mesh, field_mesh, field128_mesh, field386_mesh, field512_mesh, field12012_mesh,
     field49928_mesh;
@@ -148,7 +148,7 @@ extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head100_
 struct carom_config scene_config(void);
 
 /*
- * Build the meshes of a scene, or find them in ROM, and define where its bodies start.
+ * Build the meshes of a scene, or find them in ROM, and define the starts of its bodies.
  *   user  the mesh of scene `user`, scaled by a power of two to about the size of the head; else NULL
  *   mem   aligned to 8: SCENE_MESH_BYTES; for `user`, SCENE_MESH of its counts and of the field; unused for meshes in ROM
  *
@@ -162,11 +162,14 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
 int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
                size_t bytes, struct carom_world **world);
 
-/* The n-th scene that scene_load knows and a line about it; NULL past the last one. A board with meshes in ROM loads its own only. */
+/*
+ * The n-th scene that scene_load knows and a line about it; NULL past the last one. A board with
+ * meshes in ROM loads only its own scenes.
+ */
 const char *scene_name(int n);
 const char *scene_text(int n);
 
-/* The i-th moving body as it starts; 0 is scene->body. */
+/* The definition of the i-th moving body at its start; 0 is scene->body. */
 void scene_body(const struct scene *scene, int i, struct carom_body_def *def);
 
 /* Prepare a frame, from 1 on: the sheet moves, a game goes on. Returns CAROM_OK or an error. */
@@ -188,7 +191,7 @@ struct scene_rom {
     const struct carom_mesh *mesh[SCENE_MESHES]; /* NULL after the last */
 };
 
-/* The sheet: where its vertices are before a frame, and the raw mesh of the first. */
+/* The sheet: the places of its vertices before a frame, and the raw mesh of the first frame. */
 void scene_sheet_shape(int16_t (*vertices)[3], int32_t frame);
 struct carom_mesh_raw scene_sheet_raw(struct scene_sheet *sheet);
 

@@ -11,7 +11,7 @@
 enum { MESH_STONE, MESH_PLINTH, MESH_BALL };
 
 #define FRICTION_Q16 52429 /* 0.8 */
-#define RADIUS_MM    2000  /* to the middle of a stone */
+#define RADIUS_MM    2000  /* radius of the middle of a stone */
 #define PLINTH_MM    800
 
 static const struct carom_body_def ball = {.position = POSITION(-4200, 0, 270),
@@ -38,7 +38,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
         stone.position.c[0] += side * out_q30 * RADIUS_MM / 1000 * 4;
         stone.position.c[2] += up_q30 * RADIUS_MM / 1000 * 4;
         scene_part(&parts, MESH_STONE, &stone);
-        if (i % 2 == 0) { /* both stones of a pair are placed: on to the next pair */
+        if (i % 2 == 0) { /* both stones of a pair are placed: go on to the next pair */
             const int64_t last_q30 = c;
 
             c = (c * cosine_q30 - s * sine_q30) / CAROM_ONE_Q30;

@@ -12,7 +12,7 @@ enum { MESH_BOWL, MESH_CUP, MESH_BALL };
 
 #define FRICTION_Q16 (1u << 14)
 
-/* Where they start: places in mm, spins in mrad/s. */
+/* Their starts: places in mm, spins in mrad/s. */
 static const struct {
     int16_t mesh, x_mm, y_mm, z_mm, spin;
 } start[BOWL_PIECES] = {

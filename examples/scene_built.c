@@ -78,8 +78,8 @@ static const struct carom_mesh_raw belt_mesh = {
 };
 
 /*
- * The same mesh with the quantum at which its largest side is 1.25 to 2.5 units; the head is 2.1 wide. Quanta are powers of
- * two, so the vertices stay as they are.
+ * The same mesh with the quantum that makes its largest side 1.25 to 2.5 units; the head is 2.1
+ * wide. Quanta are powers of two, so the vertices stay as they are.
  */
 static struct carom_mesh_raw scaled(const struct carom_mesh_raw *user)
 {
@@ -152,7 +152,7 @@ static const struct materials {
     const char *name;
     const struct carom_mesh_raw *ground; /* NULL: the sheet */
     const struct carom_mesh_raw *bodies[SCENE_MESHES];
-    uint8_t quantum_bits; /* of the bodies; 0: their own */
+    uint8_t quantum_bits; /* quanta of the bodies; 0: their own */
 } materials[] = {
     {"head", &field_mesh, {&head_mesh}, 0},
     {"head-spin", &field_mesh, {&head_mesh}, 0},

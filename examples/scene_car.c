@@ -83,7 +83,7 @@ static void axle(struct scene_parts *parts, int wheel)
     scene_joint(parts, &def);
 }
 
-/* A place, and the cosine and sine of half the turn about z of what stands there. */
+/* A place, and the cosine and sine of half the turn about z of the body that stands there. */
 struct place {
     int32_t x_mm, y_mm, cosine_q30, sine_q30;
 };
@@ -95,26 +95,26 @@ static void stand(struct scene_parts *parts, int mesh, const struct place *at, i
         .position = {{at->x_mm * CAROM_POSITION_MM(1), at->y_mm * CAROM_POSITION_MM(1),
                       z_mm * CAROM_POSITION_MM(1)}},
         .rotation = {{at->cosine_q30, 0, 0, at->sine_q30}},
-        /* the car would be wedged between a rough tower and a ramp */
+        /* the car would get wedged between a rough tower and a ramp */
         .friction_q16 = mesh == MESH_TOWER ? FRICTION_Q16 / 8 : FRICTION_Q16,
         .sensor = mesh == MESH_BALL};
 
     scene_part(parts, mesh, &def);
 }
 
-/* Ramps on the round, a third of it apart. */
+/* Ramps on the circle, a third of it apart. */
 static const struct place ramps[CAR_RAMPS] = {
     {0, -12000, CAROM_ONE_Q30, 0},
     {10392, 6000, 536870912, 929887697},
     {-10392, 6000, -536870912, 929887697},
 };
-/* Towers outside the round, away from the ramps; they come between the car and the camera. */
+/* Towers outside the circle, away from the ramps; they come between the car and the camera. */
 static const struct place towers[CAR_TOWERS] = {
     {7000, -13000, 1025033084, 319763936},
     {2500, 14500, 976891013, 445664022},
     {-13500, -5500, 1064243069, 142497571},
 };
-/* Balls: six on the round, one beside it, one in the middle. */
+/* Balls: six on the circle, one beside it, one in the middle. */
 static const struct place balls[CAR_PICKUPS] = {
     {2000, -11800, CAROM_ONE_Q30, 0}, {8500, -8500, CAROM_ONE_Q30, 0},
     {12000, 0, CAROM_ONE_Q30, 0},     {6000, 10400, CAROM_ONE_Q30, 0},
@@ -249,14 +249,14 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
     return result >= 0 && keys & PORT_PAD_A ? lift(world, keys) : result;
 }
 
-/* Places on the round that the script drives, to the left, a twelfth of a turn apart. */
+/* Places on the circle that the script drives, to the left, a twelfth of a turn apart. */
 #define ROUND_PLACES 12
 static const int16_t round_mm[ROUND_PLACES][2] = {
     {12000, 0},  {10392, 6000},   {6000, 10392},   {0, 12000},  {-6000, 10392}, {-10392, 6000},
     {-12000, 0}, {-10392, -6000}, {-6000, -10392}, {0, -12000}, {6000, -10392}, {10392, -6000},
 };
 
-/* The way from a place to the next one on the round. */
+/* The way from a place to the next one on the circle. */
 static void way_on(const int64_t at_mm[2], int64_t way_mm[2])
 {
     int64_t most = INT64_MIN;
@@ -305,7 +305,7 @@ static uint32_t script(const struct carom_world *world, int frame)
 
 /* ---------------------------------------------------------------------- picture */
 
-/* Place the camera behind and above the car, but in front of whatever stands there. */
+/* Place the camera behind and above the car, but in front of any body that stands there. */
 static void look(const struct carom_world *world, struct carom_camera *camera)
 {
     static const struct carom_query_filter others = {.mask = 0xffff & ~CATEGORY_CAR};

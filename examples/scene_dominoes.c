@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scene dominoes: a row of dominoes with two turns. A ball runs into the first one. Those that it has not reached sleep. A
- * throws the ball again.
+ * Scene dominoes: a row of dominoes with two turns. A ball runs into the first one. Dominoes that
+ * the wave has not reached sleep. A throws the ball again.
  */
 #include "port.h"
 #include "scene_games.h"

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_games.h - scenes with more than bodies: joints, led bodies, belts, sensors, rays.
+ * scene_games.h - scenes with more than bodies: joints, kinematic bodies, belts, sensors, rays.
  *
- * Each scene is a function that adds bodies and joints to a world, and one that runs before each frame with the keys of a
- * pad. While nobody plays, a script presses keys; it depends on the world and the number of the frame alone.
+ * Each scene is a function that adds bodies and joints to a world, and one that runs before each
+ * frame with the keys of a pad. While nobody plays, a script presses keys; it depends only on the
+ * world and on the number of the frame.
  */
 #ifndef CAROM_SCENE_GAMES_H
 #define CAROM_SCENE_GAMES_H
@@ -46,11 +47,11 @@ struct scene_game {
     void (*look)(const struct carom_world *world, struct carom_camera *camera);
     /* Write a line of text for the picture. */
     void (*say)(const struct carom_world *world, char text[SCENE_TEXT]);
-    /* How bodies look, by body number: ramps of scene_paint's palette. NULL: as usual. */
+    /* The look of bodies, by body number: ramps of scene_paint's palette. NULL: the default. */
     const struct carom_body_paint *paints;
     uint32_t paint_count;
     const uint32_t
-        *rgb; /* SCENE_RAMPS colours, 0x00RRGGBB, the first unused; NULL: the usual ones */
+        *rgb; /* SCENE_RAMPS colours, 0x00RRGGBB, the first unused; NULL: the default ones */
 };
 
 /* Prepare a frame of a game. Returns >= 0 or an error. */
@@ -58,8 +59,8 @@ int scene_game_before(const struct scene_game *game, struct carom_world *world, 
                       uint32_t keys);
 
 /*
- * Colours of games, named by the ramps of carom_draw_palette that they stand in: a display with a fixed palette shows
- * those.
+ * Colours of games, named after their ramps in carom_draw_palette: a display with a fixed palette
+ * shows the colours of these ramps.
  */
 enum scene_ramp {
     SCENE_GREEN = CAROM_RAMP_STATIONARY,
@@ -73,11 +74,12 @@ enum scene_ramp {
 /* The squares of the yard, in two greens. */
 extern const uint8_t scene_yard_faces[YARD_FACES];
 /*
- * How a scene looks. A game has its paints; without paints (or with NULL) bodies have colours in turn, and interfering faces
- * are pink. There is one paint, good until the next call. scene_look.c
+ * The look of a scene. A game has its paints; without paints (or with NULL) bodies have colours in
+ * turn, and interfering faces are pink. There is one paint, valid until the next call. Defined in
+ * scene_look.c.
  */
 const struct carom_paint *scene_paint(const struct scene_game *game);
-/* Write a number and some words. Returns where the text goes on. */
+/* Write a number and some words. Returns the place at which the text continues. */
 char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
@@ -143,11 +145,14 @@ enum { SCREW_NUT = SCENE_BODY, SCREW_BOLT, SCREW_HEAD };
 #define SCREW_PLAY_MM  12   /* play of the nut on the bolt, to either side */
 #define SCREW_WAY_MM   1750 /* way of the nut down to the head */
 
-/* The cradle: the frame comes after the balls. The script lifts others after so many frames. */
+/*
+ * The cradle: the frame comes after the balls. After so many frames the script lifts another number
+ * of balls.
+ */
 #define NEWTON_BALLS  5
 #define NEWTON_FRAMES 320
 enum { NEWTON_BALL = SCENE_BODY };
-/* The row of dominoes, and what runs into it. */
+/* The row of dominoes, and the ball that runs into it. */
 #define DOMINOES       40
 #define DOMINOES_START 20 /* frame in which the script throws */
 enum { DOMINOES_FIRST = SCENE_BODY, DOMINOES_BALL = DOMINOES_FIRST + DOMINOES };
@@ -160,7 +165,7 @@ enum { CARDS_FIRST = SCENE_BODY, CARDS_BALL = CARDS_FIRST + CARDS, CARDS_TOP = C
 #define ARCH_STONES 13
 #define ARCH_START  240
 enum { ARCH_KEYSTONE = SCENE_BODY, ARCH_BALL = ARCH_KEYSTONE + ARCH_STONES + 2 };
-/* The bowl and what falls into it. */
+/* The bowl and the things that fall into it. */
 #define BOWL_PIECES 6
 #define BOWL_TOSS   540
 enum { BOWL = SCENE_BODY, BOWL_PIECE };

@@ -6,7 +6,7 @@
 #include "port.h"
 #include "scene_games.h"
 
-/* Where the axles are, as in tools/machines.py: wheels that meet roll on each other. */
+/* The places of the axles, as in tools/machines.py: wheels that touch roll on each other. */
 static const struct carom_body_def wheels[GEARS] = {{.position = POSITION(-1500, 0, 950)},
                                                     {.position = POSITION(0, 0, 1750)},
                                                     {.position = POSITION(1600, 0, 2950)},

@@ -108,16 +108,16 @@ int rink_act(struct carom_world *world, const uint8_t keys[NET_PLAYERS])
 
 /* --------------------------------------------------------------- both machines */
 
-#define LOSS       90 /* of 256 */
+#define LOSS       90 /* parts of 256 */
 #define SEED       7
-#define ASIDE_MM   4700 /* the middle of a rink */
+#define ASIDE_MM   4700 /* distance of the middle of a rink */
 #define HIDDEN_MM  (-200000)
 #define PACKETS    (1 + NET_PLAYERS * RINK_BODIES)
 #define CHASE_MM   250
 #define TURN_TICKS 150
 
 static struct net_side sides[NET_PLAYERS];
-static struct net_link links[NET_PLAYERS]; /* from a player to the other one */
+static struct net_link links[NET_PLAYERS]; /* links from a player to the other one */
 static _Alignas(8) uint8_t blocks[NET_PLAYERS][CAROM_WORLD_BYTES(RINK_CAPS)];
 static uint8_t saved[NET_PLAYERS][RINK_SNAPSHOT_BYTES];
 
@@ -220,7 +220,9 @@ static int show(struct carom_world *world, int32_t tick)
 
 /* ------------------------------------------------------------------ the game */
 
-/* The script of a player: it follows the ball and each box in turn, as its own machine shows them. */
+/*
+ * The script of a player: it follows the ball and each box in turn, as its own machine shows them.
+ */
 static uint8_t chase(int i, int32_t tick)
 {
     const int goal = RINK_BALL + (tick / TURN_TICKS + i) % (RINK_BODIES - RINK_BALL);

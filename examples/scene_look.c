@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How scenes look: a light sky, calm ground, bodies in warm colours that alternate. */
+/* The look of scenes: a light sky, calm ground, bodies in warm colours that alternate. */
 #include <string.h>
 
 #include "scene_games.h"
@@ -16,7 +16,7 @@
 #define SMOOTH NULL
 #endif
 
-/* From the left and in front, not high, so that shadows lie beside the bodies. */
+/* Light from the left and in front, not high, so that shadows lie beside the bodies. */
 #define LIGHT                                                                                      \
     {                                                                                              \
         {                                                                                          \

@@ -16,7 +16,7 @@ static int32_t least(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-/* The agreed frame is the one to go back to. */
+/* The agreed frame is the one to which a side goes back. */
 static int save(struct net_side *side)
 {
     int bytes = carom_snapshot_save(side->world, side->saved, side->room);
@@ -39,7 +39,7 @@ uint64_t net_hash(const struct net_side *side, int32_t frame)
     return side->hash[frame % NET_KEPT];
 }
 
-/* Check that the other side came to the same world, for a frame that this side also has. */
+/* Check that the other side has the same world, for a frame that this side also has. */
 static void compare(struct net_side *side, const struct net_packet *packet)
 {
     if (packet->agreed <= side->agreed && packet->agreed > side->agreed - NET_KEPT &&

@@ -2,12 +2,13 @@
 /*
  * scene_net.h - two machines play one game over a link that loses, delays and reorders packets.
  *
- * Each machine steps its own world: with the keys of both players where it has them, otherwise with the last keys that it
- * has of the other player. When more keys arrive, it restores its last agreed frame from a snapshot and steps again with
- * the right keys. Only keys go over the link, with a hash that shows if the worlds are the same.
+ * Each machine steps its own world: with the keys of both players where it has them, otherwise
+ * with the last keys that it has of the other player. When more keys arrive, it restores its last
+ * agreed frame from a snapshot and steps again with the right keys. Only keys go over the link,
+ * with a hash that shows whether the worlds are the same.
  *
- *   net_begin(&side[0], 0, world[0], act, saved[0], sizeof saved[0]); and the other one
- *   every tick, for both: net_take(&side[i], &link[!i], tick); net_frame(&side[i], keys);
+ *     net_begin(&side[0], 0, world[0], act, saved[0], sizeof saved[0]); and the other one; every
+ *   tick, for both: net_take(&side[i], &link[!i], tick); net_frame(&side[i], keys);
  *                         net_send(&side[i], &link[i], tick);
  */
 #ifndef CAROM_SCENE_NET_H
@@ -23,14 +24,14 @@ enum {
     NET_FLYING = NET_DELAY + 1 /* most packets in flight: one leaves a tick */
 };
 
-/* All that the other side may lack. So the answer to a lost packet is the next packet. */
+/* Everything that the other side may lack, so the next packet makes up for a lost one. */
 struct net_packet {
     bool there, lost;
     int32_t sent, due;    /* ticks */
     int32_t first, count; /* frames whose keys it holds */
     int32_t has;          /* the last frame for which the sender has the other side's keys */
     int32_t agreed;       /* the last frame that the sender stepped with all keys */
-    uint64_t hash;        /* of the sender's world after that frame */
+    uint64_t hash;        /* hash of the sender's world after that frame */
     uint8_t keys[NET_KEPT];
 };
 
@@ -61,7 +62,7 @@ struct net_side {
 };
 
 /*
- * Make a side whose world is as the game begins, the same for both.
+ * Make a side. Its world is at the beginning of the game, the same for both sides.
  *   saved, room  carom_snapshot_size of the world at any time
  * Returns >= 0 or an error.
  */
@@ -73,12 +74,12 @@ int net_begin(struct net_side *side, int me, struct carom_world *world,
 void net_take(struct net_side *side, struct net_link *link, int32_t tick);
 
 /*
- * Go on by a frame with this player's keys. Returns 1; 0 if the side waits for the other one and did not take the keys; or
- * an error.
+ * Advance by a frame with this player's keys. Returns 1; 0 if the side waits for the other one and
+ * did not take the keys; or an error.
  */
 int net_frame(struct net_side *side, uint8_t keys);
 
-/* Send all that the other side may lack. */
+/* Send everything that the other side may lack. */
 void net_send(struct net_side *side, struct net_link *link, int32_t tick);
 
 /* The hash after an agreed frame, one of the last NET_KEPT. */

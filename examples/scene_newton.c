@@ -11,13 +11,14 @@
 enum { MESH_PENDULUM, MESH_BEAM, MESH_POST };
 
 /*
- * Hanging balls are 12 mm apart, so they meet two at a time: balls that touch would be solved at once, as one body. A
- * contact begins some skins away, and a skin follows the radius of a body with its rods.
+ * Hanging balls are 12 mm apart, so they meet two at a time: balls that touch would be solved at
+ * once, as one body. A contact begins some skins away, and the skin depends on the radius of a ball
+ * together with its rods.
  */
 #define PITCH_MM 512
 #define HIGH_MM  2400
 #define ASIDE_MM 500
-/* A turn about y by 40 degrees: sine and cosine, and those of half the angle. */
+/* A turn about y by 40 degrees: its sine and cosine, and the sine and cosine of half the angle. */
 #define SINE_Q30        690189683
 #define COSINE_Q30      822533957
 #define SINE_HALF_Q30   367241333
@@ -43,7 +44,7 @@ static int lift(struct carom_world *world, int count)
         state.rotation.c[2] = up ? SINE_HALF_Q30 : 0;
         state.position.c[0] += up ? SINE_Q30 * below_q22 / (1 << 20) : 0;
         state.position.c[2] += (up ? COSINE_Q30 : CAROM_ONE_Q30) * below_q22 / (1 << 20);
-        state.overlap = CAROM_OVERLAP_PASS; /* over balls that are not set yet */
+        state.overlap = CAROM_OVERLAP_PASS; /* it may overlap balls that are not set yet */
         result = carom_body_set(world, NEWTON_BALL + i, &state);
     }
     return result;

@@ -30,12 +30,14 @@ bool scene_play_keys(struct scene_play *play, const struct scene *scene, struct 
                      uint32_t keys);
 
 /*
- * True if a frame is to be drawn: a late frame is skipped, but never more than three in a row. Waits for the end of a frame
- * that is early.
+ * True if a frame must be drawn: a late frame is skipped, but never more than three in a row. Waits
+ * for the end of a frame that is early.
  */
 bool scene_play_draws(struct scene_play *play);
 
-/* Rows at the bottom of a framebuffer for figures, and two of them there, in ticks of the port. */
+/*
+ * Rows at the bottom of a framebuffer for figures; draws two figures there, in ticks of the port.
+ */
 #define SCENE_PLAY_ROWS 8
 void scene_play_figures(const struct port_fb *fb, uint32_t step, uint32_t draw);
 

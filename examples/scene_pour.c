@@ -21,7 +21,7 @@ enum { SHAPES = 4, BUCKET = SHAPES, TRAY };
 #define TRAY_MM  1230
 
 #define CAPS 35, 256, 512, 2048, 0, 4096, 0, 1
-#ifndef BOARD_GAME_CAPS /* a board that has less lacks this scene */
+#ifndef BOARD_GAME_CAPS /* a board that has less memory lacks this scene */
 _Static_assert(CAROM_WORLD_BYTES(CAPS) <= SCENE_WORLD_BYTES, "it fits where any scene does");
 #endif
 
@@ -59,7 +59,7 @@ static uint32_t script(const struct carom_world *world, int frame)
     return frame > FPS && frame <= 6 * FPS ? PORT_PAD_RIGHT : frame > 7 * FPS ? PORT_PAD_LEFT : 0;
 }
 
-/* The pose of the bucket tipped about its lip, by cosine and sine of half the angle. */
+/* The pose of the bucket when it is tipped about its lip, by cosine and sine of half the angle. */
 static struct carom_pose tipped(const struct carom_world *world, int64_t cosine_q30,
                                 int64_t sine_q30)
 {
@@ -77,8 +77,8 @@ static struct carom_pose tipped(const struct carom_world *world, int64_t cosine_
 }
 
 /*
- * The tangent t of a quarter of the angle changes evenly, and so nearly does the angle. Half the angle has the cosine
- * (1 - t^2) / (1 + t^2) and the sine 2 t / (1 + t^2).
+ * The tangent t of a quarter of the angle changes evenly, and the angle changes nearly evenly. Half
+ * the angle has the cosine (1 - t^2) / (1 + t^2) and the sine 2 t / (1 + t^2).
  */
 static int before(struct carom_world *world, int frame, uint32_t keys)
 {

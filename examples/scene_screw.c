@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scene screw: a nut on a bolt that stands on its head. No joint holds it: thread lies on thread. Its weight turns it down;
- * up and down turn it as a hand would.
+ * Scene screw: a nut on a bolt that stands on its head. No joint holds the nut: thread lies on
+ * thread. Its weight turns it down; up and down turn it like a hand.
  */
 #include "carom_body.h"
 #include "port.h"
@@ -35,7 +35,10 @@ static int64_t height_mm(const struct carom_body_state *nut, const struct carom_
                        carom_body_mesh(world, SCREW_NUT)->mass.centre.c[2] * 1024ll);
 }
 
-/* The script: nothing on the way down; at the head it turns the nut up for half of the way, and lets go. */
+/*
+ * The script presses nothing on the way down; at the head it turns the nut up for half of the way,
+ * and lets go.
+ */
 static uint32_t script(const struct carom_world *world, int frame)
 {
     struct carom_body_state nut;

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scene walker: someone walks. The walker is a kinematic body; before each frame, sweeps of its mesh find its way.
+ * Scene walker: someone walks. The walker is a kinematic body; before each frame, sweeps of its
+ * mesh find its way.
  *
- * A walker that stands goes up by the height of a step, on along what it meets, down onto the ground there, and moves
- * with that ground. One that does not stand falls. It pushes what moves freely. It remembers nothing but the velocity of the
- * body. The scene has steps, a platform that goes to and fro, a ramp, a mat that opens a door, a block to jump over
- * and a crate.
+ * A walker that stands goes up by the height of a step, then forwards along the faces that it
+ * meets, then down onto the ground there, and moves with that ground. A walker that does not stand
+ * falls. It pushes free bodies. It remembers nothing but the velocity of the body. The scene has
+ * steps, a platform that goes to and fro, a ramp, a mat that opens a door, a block to jump over and
+ * a crate.
  */
 #include "carom_body.h"
 #include "carom_query.h"
@@ -24,7 +26,7 @@ enum { MESH_WALKER, MESH_STEPS, MESH_RAMP, MESH_DOOR, MESH_BOX, MESH_MAT };
 #define TURN_DEG_S 120
 #define TURN_Q30   18742189 /* tangent of half the turn of a frame */
 #define STEP_MM    200      /* higher than a step of the stairs */
-#define FEEL_MM    20       /* ground at most so far below the feet carries the walker */
+#define FEEL_MM    20       /* ground at most this far below the feet carries the walker */
 #define STEEP_Q30  (CAROM_ONE_Q30 / 5 * 4) /* cosine: nobody stands where the normal is steeper */
 #define PUSH_MN_S  150
 #define SLIDES     4 /* changes of direction in a frame */
@@ -67,7 +69,10 @@ static struct carom_query_mesh mesh_of(const struct carom_world *world, int body
 
 /* ---------------------------------------------------------------- platform, door */
 
-/* Lead the platform on to the end where it belongs at this time, unless the walker is in the way. Returns >= 0 or an error. */
+/*
+ * Lead the platform to the end where it belongs at this time, unless the walker is in the way.
+ * Returns >= 0 or an error.
+ */
 static int lead_platform(struct carom_world *world, int frame)
 {
     const int time = frame % PLATFORM_FRAMES;
@@ -98,7 +103,7 @@ static int lead_platform(struct carom_world *world, int frame)
 /* A shut door stands across the way, from its hinge at y = -DOOR_HALF_MM to the other side. */
 static const carom_v3_q32 door_position = POSITION(DOOR_AT_MM, -DOOR_HALF_MM, DOOR_UP_MM);
 
-/* Check if the walker stands on the mat. Returns 1, 0 or an error. */
+/* Check whether the walker stands on the mat. Returns 1, 0 or an error. */
 static int on_the_mat(struct carom_world *world)
 {
     static const struct carom_query_filter mats = {.mask = CATEGORY_MAT,
@@ -134,7 +139,10 @@ static struct carom_pose door_after(const struct carom_world *world,
     return pose;
 }
 
-/* The door opens while someone stands on the mat, and then shuts, unless the walker is in its way. */
+/*
+ * The door opens while someone stands on the mat, and shuts afterwards, unless the walker is in its
+ * way.
+ */
 static int lead_door(struct carom_world *world)
 {
     const int opens = on_the_mat(world);
@@ -167,10 +175,10 @@ static int lead_door(struct carom_world *world)
 struct walk {
     struct carom_world *world;
     struct carom_query_mesh mesh;
-    struct carom_mesh_hit hit; /* the last sweep that met something */
+    struct carom_mesh_hit hit; /* the last sweep that hit a body */
 };
 
-/* Go along a way until something is met. Returns 1 if something was, 0, or an error. */
+/* Go along a way up to the first hit. Returns 1 for a hit, 0 for none, or an error. */
 static int sweep(struct walk *walk, const carom_v3_q32 *way)
 {
     const struct carom_mesh_way go = {.way = *way};
@@ -203,7 +211,7 @@ static bool go_along(const struct walk *walk, carom_v3_q32 *way)
     return far;
 }
 
-/* Push what was hit, if it moves freely and is beside the walker, not below or above. */
+/* Push the body that was hit, if it moves freely and is beside the walker, not below or above. */
 static int push(const struct walk *walk)
 {
     struct carom_body_look look;
@@ -221,7 +229,10 @@ static int push(const struct walk *walk)
     return carom_body_push(walk->world, walk->hit.body, &impulse, &walk->hit.point);
 }
 
-/* Go along a way, sliding along what is met within the plane of the way. Returns >= 0 or an error. */
+/*
+ * Go along a way, sliding along the faces that are hit, within the plane of the way. Returns >= 0
+ * or an error.
+ */
 static int slide(struct walk *walk, carom_v3_q32 way)
 {
     int met = 1;
@@ -239,13 +250,13 @@ static int slide(struct walk *walk, carom_v3_q32 way)
     return met;
 }
 
-/* True if nobody can stand on what was hit. */
+/* True if nobody can stand on the face that was hit. */
 static bool is_steep(const struct walk *walk)
 {
     return walk->hit.normal.c[2] < STEEP_Q30;
 }
 
-/* Check if the walker stands, and how far the ground moves it. Returns 1, 0 or an error. */
+/* Check whether the walker stands, and how far the ground moves it. Returns 1, 0 or an error. */
 static int stands(struct walk *walk, carom_v3_q32 *way)
 {
     const struct carom_mesh_way down = {.way = POSITION(0, 0, -FEEL_MM)};
@@ -263,8 +274,8 @@ static int stands(struct walk *walk, carom_v3_q32 *way)
 }
 
 /*
- * Go up by a step as far as there is room, on, and down onto the ground there. If there is no ground to stand on, go straight
- * on, and a fall begins.
+ * Go up by a step as far as there is room, then forwards, then down onto the ground there. If there
+ * is no ground to stand on, go straight on, and a fall begins.
  */
 static int walk_on(struct walk *walk, carom_v3_q32 way, int64_t fall_q32)
 {
@@ -286,7 +297,7 @@ static int walk_on(struct walk *walk, carom_v3_q32 way, int64_t fall_q32)
     return result;
 }
 
-/* Turn on the spot by the turn of a frame, unless something is in the way. Returns the spin or 0. */
+/* Turn on the spot by the turn of a frame, unless a body is in the way. Returns the spin or 0. */
 static int64_t turn(struct walk *walk, uint32_t keys)
 {
     const int side = !!(keys & PORT_PAD_LEFT) - !!(keys & PORT_PAD_RIGHT);
@@ -298,7 +309,7 @@ static int64_t turn(struct walk *walk, uint32_t keys)
     return side * CAROM_SPIN_DEG_S(TURN_DEG_S, FPS);
 }
 
-/* The way of a frame by the keys, along the x axis of the body. */
+/* The way of a frame from the keys, along the x axis of the body. */
 static int step_of(const struct carom_world *world, uint32_t keys, carom_v3_q32 *way)
 {
     const int64_t pace[3] = {(keys & PORT_PAD_UP     ? CAROM_VELOCITY_MM_S(WALK_MM_S, FPS)
@@ -310,7 +321,10 @@ static int step_of(const struct carom_world *world, uint32_t keys, carom_v3_q32 
     return carom_body_world_vector(world, WALKER, pace, way->c);
 }
 
-/* Set the velocity of the walker for this frame in `state`, which holds where it begins. Returns >= 0 or an error. */
+/*
+ * Set the velocity of the walker for this frame in `state`, which holds its pose at the start.
+ * Returns >= 0 or an error.
+ */
 static int go(struct walk *walk, uint32_t keys, struct carom_body_state *state)
 {
     const carom_v3_q32 from = state->position;
@@ -326,9 +340,7 @@ static int go(struct walk *walk, uint32_t keys, struct carom_body_state *state)
     if (standing && !(keys & PORT_PAD_A)) {
         result = walk_on(walk, way, gravity_q32);
     } else {
-        if (!standing &&
-            !(keys &
-              (PORT_PAD_UP | PORT_PAD_DOWN))) { /* in the air without keys: as it went before */
+        if (!standing && !(keys & (PORT_PAD_UP | PORT_PAD_DOWN))) { /* in the air: as before */
             way.c[0] = state->velocity.c[0] >> 8;
             way.c[1] = state->velocity.c[1] >> 8;
         }
@@ -372,7 +384,7 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
 
 /* ------------------------------------------------------------------------ script */
 
-/* Where to walk until when, as part of a round of the platform. */
+/* Goals of the walk and the frames until which they hold, as part of a round of the platform. */
 #define ROUND_FRAMES (3 * PLATFORM_FRAMES)
 static const struct {
     int16_t until, x_mm, y_mm;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The parts of a scene that its frames need: its rules, its camera, its look, its text. */
+/* The parts of a scene that its frames need: rules, camera, look, text. */
 #include "show.h"
 
 #include "scene_games.h"

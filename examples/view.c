@@ -32,7 +32,7 @@ static struct {
     struct show show;
     struct carom_world *world; /* NULL if no scene is open */
     int32_t steps;
-    int error; /* of the last step; CAROM_OK: the scene goes on */
+    int error; /* error of the last step; CAROM_OK: the scene goes on */
     bool paused;
     int32_t slow, calls; /* a step every `slow` calls; calls since the last step */
     uint32_t toggles;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * view.h - a scene to look at and to play with: all of `make view` and of the page, except the window. It calls nothing of
- * an operating system. There is one view; its memory is static.
+ * view.h - a scene to look at and to play with: all parts of `make view` and of the page, except
+ * the window. It calls nothing of an operating system. There is one view; its memory is static.
  *
- * An act changes the world: a key that goes down or up, a place that is grabbed, a hand that moves, a hand that lets go. It has a
- * frame and a few numbers. A link is the scene's name and its acts, so that the same bodies take the same way
- * anywhere. Looking (camera, toggles, pause, slow motion) is no act.
+ * An act changes the world: a key that goes down or up, a place that is grabbed, a hand that moves,
+ * a hand that lets go. An act has a frame and a few numbers. A link is the scene's name and its
+ * acts, so that the same bodies move in the same way anywhere. A change of the view (camera,
+ * toggles, pause, slow motion) is no act.
  */
 #ifndef CAROM_VIEW_H
 #define CAROM_VIEW_H
@@ -44,23 +45,27 @@ int view_size(const struct carom_picture *picture);
 /* ------------------------------------------------------------------- looking */
 
 void view_toggles(uint32_t toggles); /* a sum of enum view_toggle */
-uint32_t view_usual(void);           /* those that suit the scene */
+uint32_t view_usual(void);           /* the toggles that suit the scene */
 /* Turn the camera about its target, by the pixels that a pointer moved. */
 void view_orbit(int32_t x, int32_t y);
 void view_pan(int32_t x, int32_t y); /* move camera and target */
 void view_zoom(int32_t steps);       /* an eighth nearer a step; negative: farther */
-void view_home(void); /* the scene's own camera; in a game it goes with the player again */
-/* The camera. Good until the next call. */
+void view_home(void); /* the scene's own camera; in a game it follows the player again */
+/* The camera. Valid until the next call. */
 const struct carom_camera *view_camera(void);
 
 /* -------------------------------------------------------------------- acting */
 
-/* Keys held from the next frame on: a sum of enum port_pad. Until the first key a game's script plays. */
+/*
+ * Keys held from the next frame on: a sum of enum port_pad. A game's script plays until the first
+ * key.
+ */
 void view_keys(uint32_t keys);
 
 /*
- * Take hold of the body that the picture shows at pixel (x, y). A spring that hardly swings draws the place towards the
- * pointer, in the plane through the place that faces the camera. A body that is let go flies on: it is thrown.
+ * Take hold of the body that the picture shows at pixel (x, y). A well damped spring draws the
+ * place towards the pointer, in the plane through the place that faces the camera. A body that is
+ * let go flies on.
  * Returns  true if a moving body is there
  */
 bool view_grab(int32_t x, int32_t y);
@@ -79,7 +84,7 @@ void view_slow(int32_t n); /* a step every n calls of view_frame, 1 to 60 */
  */
 int view_frame(void);
 
-/* Lines to show over the middle of the pictures; NULL: none. The caller keeps them. */
+/* Lines of text over the middle of the pictures; NULL: none. The caller keeps them. */
 void view_note(const char *text);
 
 /* Draw the picture of view_size with all that the toggles ask for. Returns CAROM_OK or an error of carom_draw. */
@@ -89,21 +94,22 @@ int view_draw(void);
 
 int32_t view_step_count(void);              /* steps since the scene began */
 uint64_t view_hash(void);                   /* carom_world_hash */
-const struct carom_stats *view_stats(void); /* of the last step, in port_ticks */
+const struct carom_stats *view_stats(void); /* statistics of the last step, in port_ticks */
 const struct carom_world *view_world(void); /* NULL if no scene is open */
 const char *view_scene(void);
 const char *view_says(void); /* a game's line of text, or "" */
 
 /*
- * Write the scene and all acts so far as text of at most `room` bytes, its 0 included. It holds only letters, digits, '-', '_',
- * '.' and '~', so it may stand in the address of a page. Scene "user" has no link.
+ * Write the scene and all acts so far as text of at most `room` bytes, including the final 0. The
+ * text holds only letters, digits, '-', '_', '.' and '~', so it may stand in the address of a
+ * page. Scene "user" has no link.
  * Returns  its length; CAROM_ERR_MEMORY; CAROM_ERR_ARGUMENT for "user"
  */
 int view_link(char *text, size_t room);
 
 /*
- * Open the scene of a link. Its acts are done again at their frames; until the last one is done, view_keys, view_grab,
- * view_drag and view_drop do nothing.
+ * Open the scene of a link and repeat its acts at their frames. Until the last act is done,
+ * view_keys, view_grab, view_drag and view_drop do nothing.
  * Returns  the frame of the last act; CAROM_ERR_ARGUMENT for a text that is no link: the previous scene stays
  */
 int view_follow(const char *text);

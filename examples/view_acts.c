@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Acts: what the viewer does to the world. Each act keeps the frame before whose step it is done, so that it can be done again. */
+/*
+ * Acts: the changes that the viewer makes to the world. Each act has a frame; it is done before the
+ * step of that frame, so that it can be repeated.
+ */
 #include "carom_body.h"
 #include "scene.h"
 #include "view_parts.h"
@@ -57,7 +60,7 @@ uint32_t view_acts_keys(void)
 
 /* ------------------------------------------------------------------- noting */
 
-/* Note an act. The same kind of act twice before a frame is one. True if there is room. */
+/* Note an act. Two acts of the same kind before one frame count as one. True if there is room. */
 static bool note(struct view_act act)
 {
     struct view_act *last =

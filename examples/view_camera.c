@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The camera: the scene's own until somebody turns it. From then on an arm holds it, two angles and a length from the scene's
- * target, so it goes with a game's player. Panning moves the target.
+ * The camera: the scene's own until a user turns it. From then on an arm holds it, with two angles
+ * and a length from the scene's target, so it follows a game's player. Panning moves the target.
  */
 #include "view_parts.h"
 
@@ -18,9 +18,9 @@ struct angle {
 
 static struct {
     bool own;
-    struct angle turn, rise; /* of the arm: about the upright from x, and up */
+    struct angle turn, rise; /* direction of the arm: about the upright from x, and up */
     int64_t length_q32;
-    carom_v3_q32 shift; /* of the target */
+    carom_v3_q32 shift; /* shift of the target */
 } arm;
 
 /* ------------------------------------------------------------------- numbers */
@@ -68,7 +68,7 @@ static struct angle turned(struct angle a, int32_t pixels)
     const int64_t cosine = (CAROM_ONE_Q30 - square) * CAROM_ONE_Q30 / under;
     const int64_t sine = 2 * half * CAROM_ONE_Q30 / under;
 
-    /* normalise, because roundings change the length */
+    /* normalise, because rounding changes the length */
     measure((a.cosine_q30 * cosine - a.sine_q30 * sine) >> 30,
             (a.sine_q30 * cosine + a.cosine_q30 * sine) >> 30, &a);
     return a;

@@ -2,16 +2,17 @@
 /*
  * The hand: a critically damped spring between a place of a body and a place of the world.
  *
- * It is an impulse before each step that changes the velocity v of the place to v + d / 16 - 7 v / 16, where d is the way to
- * the hand. Then the place nears the hand by a quarter of d a frame, and does not swing: 1 - 7/16 is the square of 3/4,
- * and 1/16 that of 1/4. The hand also carries the weight, and takes off a part of the spin, or a hanging body would swing on.
+ * Before each step an impulse changes the velocity v of the place to v + d / 16 - 7 v / 16, where d
+ * is the way to the hand. So the place approaches the hand by a quarter of d a frame, and does not
+ * swing: 1 - 7/16 is the square of 3/4, and 1/16 the square of 1/4. The hand also carries the
+ * weight, and removes a part of the spin; otherwise a hanging body would swing on.
  */
 #include "carom_body.h"
 #include "view_parts.h"
 
 #define PULL_SHIFT 4 /* 1/16 */
 #define DAMP_16    7
-#define SPIN_SHIFT 4                  /* 1/16 of it */
+#define SPIN_SHIFT 4                  /* 1/16 of the spin */
 #define WAY_LIMIT  ((int64_t)2 << 40) /* bounds the speed at 2/7 units a frame, 17 a second */
 #define GAIN_LIMIT ((int64_t)2 << 40) /* units a frame */
 #define SUM_LIMIT  ((int64_t)1 << 33)
@@ -108,7 +109,7 @@ static void sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v
     }
 }
 
-/* The velocity that the place is to gain. */
+/* The velocity that the place must gain. */
 static void wanted(const carom_v3_q32 *point, const carom_v3_q40 *velocity, int64_t gain_q40[3])
 {
     const struct carom_config config = scene_config();
@@ -127,8 +128,9 @@ static void wanted(const carom_v3_q32 *point, const carom_v3_q40 *velocity, int6
 }
 
 /*
- * How much lighter a body is for an impulse at a place than at its centre: 1 + (r x u) J^-1 (r x u), in q20. r leads from the
- * centre to the place, the unit vector u along the impulse, and J is the inertia over the mass.
+ * The ratio of a body's mobility at a place to that at its centre, for an impulse: 1 + (r x u) J^-1
+ * (r x u), in q20. r leads from the centre to the place, the unit vector u along the impulse, and J
+ * is the inertia over the mass.
  */
 static int64_t lightness_q20(const struct carom_mesh *mesh, const int64_t local_q32[3],
                              const int64_t along[3])
@@ -154,7 +156,7 @@ static int64_t lightness_q20(const struct carom_mesh *mesh, const int64_t local_
     return (1 << 20) + (length2 >> 20 ? sum / (length2 >> 20) : 0);
 }
 
-/* Push the place so that it gains that velocity, along its own direction. */
+/* Push the place so that it gains that velocity, along the velocity's own direction. */
 static void pull(struct carom_world *world, const carom_v3_q32 *point, const int64_t gain_q40[3],
                  uint32_t mass_q20)
 {
@@ -171,7 +173,7 @@ static void pull(struct carom_world *world, const carom_v3_q32 *point, const int
                     point); /* a body that would become too fast stays as it is */
 }
 
-/* Take off 1/16 of the angular momentum. */
+/* Remove 1/16 of the angular momentum. */
 static void calm_spin(struct carom_world *world, const carom_v3_q40 *spin, uint32_t mass_q20)
 {
     const struct carom_mesh *mesh = carom_body_mesh(world, view_hand.body);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Lines that show how the engine works: cells of z-lists, contacts with their normals and impulses. */
+/* Lines that show the engine's work: cells of z-lists, contacts with their normals and impulses. */
 #include "carom_body.h"
 #include "carom_debug.h"
 #include "view_parts.h"
@@ -10,7 +10,7 @@
 
 /* --------------------------------------------------------------------- cells */
 
-/* The z-lists of a body that are searched for another one. */
+/* The z-lists of a body that are searched for another body. */
 struct asked {
     const struct carom_world *world;
     int body;
@@ -132,7 +132,7 @@ static bool find_box(struct asked *q, const struct carom_body_look *a)
     return true;
 }
 
-/* A step asks the z-lists of the stationary body, or of the lower number if both move. */
+/* A step searches the z-lists of the stationary body, or of the lower number if both move. */
 void view_cells(const struct carom_world *world, struct carom_paint *paint)
 {
     static struct carom_paint_line room[VIEW_LINES_MAX];
@@ -200,7 +200,8 @@ static void cross(const struct carom_picture *picture, const struct carom_contac
 }
 
 /*
- * Length of the line for an impulse: a quarter of the body's radius for its weight over a frame, at most four radii.
+ * Length of the line for an impulse: a quarter of the body's radius for its weight over a frame, at
+ * most four radii.
  */
 static int64_t impulse_length(const struct carom_world *world, const struct carom_contact *c,
                               int64_t radius_q32)

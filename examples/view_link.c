@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Links: the scene's name and, if there are acts, '~', their number and the acts. A number has five bits a digit, the lowest
- * first, and a sixth bit while more follow; digits are those of base64 for addresses (RFC 4648). An act is 4 times the frames since
- * the last act plus its kind, then its numbers, each as the difference to that of the last act of the kind. Signs are in the
- * lowest bit.
+ * Links: the scene's name and, if there are acts, '~', their number and the acts. A number has five
+ * bits a digit, the lowest first, and a sixth bit while more digits follow; digits are those of
+ * base64 for addresses (RFC 4648). An act is 4 times the frames since the last act plus its kind,
+ * then its numbers, each as the difference from the last act of the kind. Signs are in the lowest
+ * bit.
  */
 #include <string.h>
 
@@ -25,7 +26,8 @@ struct before {
 
 struct writer {
     char *text;
-    size_t room, length; /* the final 0 is not counted; a length above the room: it does not fit */
+    size_t room, length; /* the final 0 is not counted; a length above the room means that the text
+                          * does not fit */
 };
 
 static void put(struct writer *w, char c)
@@ -162,7 +164,7 @@ static int64_t take_acts(const char *text, struct view_act *list)
     return r.ok && !*r.at ? (int64_t)count : -1;
 }
 
-/* True if scene.h knows the scene, and it needs no mesh of the caller's. */
+/* True if scene.h knows the scene, and the scene needs no mesh of the caller's. */
 static bool is_scene(const char *name)
 {
     for (int i = 0; scene_name(i); i++) {

@@ -6,7 +6,7 @@
 #include "view_parts.h"
 
 #define ROWS      (CAROM_STAGE_COUNT + 2) /* the stages, their sum, the picture */
-#define MEAN_BITS 4                       /* over about 16 steps */
+#define MEAN_BITS 4                       /* mean over about 16 steps */
 #define TICK_BITS 8
 #define MARGIN    4
 #define NAME_LINE 12 /* characters before a bar */
@@ -111,7 +111,7 @@ static int32_t cells(const struct pen *pen, int32_t count)
 
 /* ---------------------------------------------------------------------- bars */
 
-/* A frame's time, or the least part of it that holds all that was taken. */
+/* A frame's time, or the smallest part of it that holds the longest bar. */
 static uint64_t scale_of(uint64_t most, int *part_bits)
 {
     uint64_t full = ((uint64_t)port_ticks_hz << TICK_BITS) / FPS;
@@ -138,7 +138,7 @@ static void say_head(char text[LINE_TEXT], uint64_t full, int part_bits)
     text = scene_say_number(text + 5, 1 << part_bits, " of a frame");
 }
 
-/* The picture has no bar: it is no part of a step. */
+/* The picture has no bar, because it is no part of a step. */
 static void draw_bar(const struct pen *pen, int row, int32_t y, uint64_t full)
 {
     const int32_t width = cells(pen, BAR_CELLS), x = MARGIN * 2 + cells(pen, NAME_LINE);

@@ -25,6 +25,6 @@ int main(void)
         carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT) < 0) {
         return 1;
     }
-    /* the background has all of its 32 shades from the top of the picture to the bottom */
+    /* from the top of the picture to the bottom, the background has all of its 32 shades */
     return pixels[0] == pixels[63 * 64] || pixels[0] != pixels[63];
 }

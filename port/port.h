@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * port.h - what a board gives a program: a display, a timer, a character, a way out.
+ * port.h - the functions that a board gives a program: a display, a timer, a character, a way out.
  *
  * Plain functions, one definition each, found at link time: a missing one is a link error that
  * names it. The engine calls none of them; programs do. To bring up a board, copy port/null.
@@ -30,7 +30,10 @@ void port_init(void);
 /* The framebuffer to draw into. */
 struct port_fb port_fb(void);
 
-/* Show the framebuffer, or the rows that were drawn. Returns when it may be drawn into again. */
+/*
+ * Show the framebuffer, or the rows that were drawn. Returns when the program may draw into it
+ * again.
+ */
 void port_present(void);
 
 /* A free-running counter that wraps at 2^32, and its rate. */
@@ -66,13 +69,15 @@ enum port_pad {
 uint32_t port_input(void);
 
 /*
- * The n-th argument of the program; n = 0 is its name. NULL past the last one, and for all n of a program that is switched on, not run.
+ * The n-th argument of the program; n = 0 is its name. NULL past the last one, and for all n of a
+ * program that is switched on without a runner.
  */
 const char *port_arg(int n);
 
 /*
- * The value of the first argument of the form name=value, or NULL. It works over port_arg, the same on every board. A port itself
- * knows one option, `pictures`: port_present then outputs pictures, in a way that the board's folder describes.
+ * The value of the first argument of the form name=value, or NULL. It uses port_arg, so it is the
+ * same on every board. A port itself knows one option, `pictures`: port_present then outputs
+ * pictures, in a way that the board's folder describes.
  */
 const char *port_option(const char *name);
 /* The same as a decimal number; `otherwise` if there is no such argument. */
@@ -84,7 +89,7 @@ uint32_t port_number(const char *name, uint32_t otherwise);
  */
 long port_read_file(const char *name, void *buffer, size_t max);
 
-/* Most bytes of stack that were in use so far; 0 if unknown. */
+/* The largest number of bytes of stack in use so far; 0 if unknown. */
 uint32_t port_stack(void);
 
 /* Leave with an exit status. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A box falls on the ground, bounces and comes to rest; again after a second. Open the serial plotter: it draws the height of the
- * box in millimetres, and its speed in millimetres a second.
+ * A box falls on the ground, bounces and comes to rest; a second later it falls again. Open the
+ * serial plotter: it draws the height of the box in millimetres, and its speed in millimetres a
+ * second.
  */
 #include <carom.h>
 
@@ -22,7 +23,7 @@ alignas(8) static uint8_t box_block[CAROM_MESH_BYTES(8, 12)], flat_block[CAROM_M
 static carom_mesh meshes[2];
 static carom_world *world;
 
-/* A result below zero is an error: say it, and stop. */
+/* A result below zero is an error: print it, and stop. */
 static int sure(int result)
 {
     if (result < 0) {

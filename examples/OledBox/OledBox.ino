@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A box falls on an OLED of 128 x 64 pixels: an SSD1306 at address 0x3c of the I2C bus. The picture is drawn row by row,
- * so that no memory holds all of its shades; show_page() alone knows the display.
+ * A box falls on an OLED of 128 x 64 pixels: an SSD1306 at address 0x3c of the I2C bus. The picture
+ * is drawn row by row, so that no memory holds all of its shades; only show_page() knows the
+ * display.
  */
 #include <Wire.h>
 #include <carom_draw.h>
@@ -31,7 +32,7 @@ static void begin_display()
     }
 }
 
-/* Eight rows of the display: a byte a column, the upper row in its lowest bit. */
+/* Send eight rows of the display: a byte a column, with the upper row in its lowest bit. */
 static void show_page(int page, const uint8_t columns[WIDTH])
 {
     command(0xb0 | page);
@@ -61,7 +62,7 @@ static carom_paint paint()
     return paint;
 }
 
-/* How bright a pixel is, 0 .. 32: the sky is black, and the ground darker than the box. */
+/* The brightness of a pixel, 0 .. 32: the sky is black, and the ground is darker than the box. */
 static int brightness(int pixel)
 {
     const int ramp = pixel / 32, shade = pixel % 32;
@@ -69,7 +70,7 @@ static int brightness(int pixel)
     return ramp == 0 ? 0 : ramp % 2 == 1 ? 3 : 2 * (shade - 12);
 }
 
-/* The row that is complete, in black and white. */
+/* Keep the complete row, in black and white. */
 static void keep_row()
 {
     static const uint8_t order[4][4] = {{0, 16, 4, 20}, {24, 8, 28, 12}, {6, 22, 2, 18}, {30, 14, 26, 10}};

@@ -2,7 +2,7 @@
 // Meshes from files: corners as numbers, faces as triangles, converted to int16 for the engine.
 "use strict";
 
-const MESH_REACH = 30000; // of int16, half of the largest side
+const MESH_REACH = 30000; // int16 value for half of the largest side
 
 function triangulate(ring, faces) {
     for (let i = 2; i < ring.length; i++) {
@@ -48,7 +48,8 @@ function readStl(buffer) {
     return { corners, faces };
 }
 
-// The same in int16, with equal corners united and triangles without three corners left out.
+// The same mesh in int16, with equal corners united, and without triangles that lose a corner by
+// that.
 function quantize({ corners, faces }) {
     if (faces.length === 0) {
         throw new Error("There are no faces in this file.");

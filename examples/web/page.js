@@ -4,7 +4,7 @@ const TOGGLES = [["Interfering faces", 1], ["Contacts", 2], ["Z-list cells", 4],
     ["Bars", 64], ["Text", 128]];
 const KEYS = { ArrowRight: 16, ArrowLeft: 32, ArrowUp: 64, ArrowDown: 128, KeyX: 1, KeyZ: 2, KeyY: 2, Enter: 8, ShiftLeft: 4 };
 const FRAME_MS = 1000 / 60, LATE_MAX = 3, PAGE_PIXELS = 700000, NO_STATE = {};
-const START_HASH = location.hash; // before a scene writes its own
+const START_HASH = location.hash; // kept before a scene writes its own
 const at = (id) => document.getElementById(id);
 const states = JSON.parse(at("states").textContent);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hello.cpp in C, with all the checks of carom.hpp: a mesh that was not built counts as none, the body has the number that the world gave it,
- * and a state that could not be read is zero. The cost of hello.cpp is compared with this.
+ * hello.cpp in C, with all the checks of carom.hpp: a mesh that was not built counts as none, the
+ * body has the number that the world returned, and a state that could not be read is zero. The cost
+ * of hello.cpp is compared with the cost of this program.
  */
 #include <stdio.h>
 #include "carom.h"

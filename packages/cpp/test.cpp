@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tests of carom.hpp: literals have the bits of carom_fix.h's macros, hello's world ends in the hash of the C program, and a body, a joint and
- * a question behave as their units say.
+ * Tests of carom.hpp: literals have the bits of carom_fix.h's macros, hello's world ends in the
+ * hash of the C program, and a body, a joint and a query behave as their units say.
  */
 #define main hello
 #include "hello.cpp"

@@ -1,6 +1,7 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Lines of units.txt that must compile do, and their twins of other units do not: units.py COMPILER..."""
+"""Lines of units.txt that must compile do compile, and their twins with other units do not: units.py
+COMPILER..."""
 import os
 import subprocess
 import sys
@@ -30,7 +31,7 @@ void tried(World<Caps<2, 1, 16, 16, 0, 64>> &world, BodyDef &def, Body body)
 
 
 def refusal(compiler, line):
-    """A compiler's error for a line; nothing if it takes the line."""
+    """A compiler's error for a line; empty if the compiler accepts the line."""
     done = subprocess.run([compiler, *OPTIONS], input=PROGRAM % line, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return done.stdout if done.returncode else ""

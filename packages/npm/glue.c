@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Two callbacks and a size: a WebAssembly module needs them beside the public functions. */
+/* Two callbacks and a size, which a WebAssembly module needs besides the public functions. */
 #include "carom_query.h"
 
 #define IMPORT(name) __attribute__((import_module("carom"), import_name(#name)))
@@ -8,7 +8,7 @@
 IMPORT(contact) bool glue_contact(void *user, struct carom_touch *touch);
 IMPORT(wants) bool glue_wants(void *context, int body);
 
-/* For config.contact: calls the function that the module got for the world of this number. */
+/* For config.contact: calls the function that the module received for the world of this number. */
 carom_contact_function *EXPORT(glue_contact_function)(void)
 {
     return glue_contact;

@@ -12,24 +12,26 @@ export class CaromError extends Error {
 }
 
 export interface MeshOptions {
-    /** An Int16Array holds quanta, 2^-quantumBits m each; everything else metres, which are rounded to quanta. */
+    /** An Int16Array holds quanta, 2^-quantumBits m each; any other array holds metres, which are
+     * rounded to quanta. */
     vertices: Int16Array | ArrayLike<number> | readonly (readonly number[])[];
     /** Three vertex numbers a face, counter-clockwise from outside. */
     faces: ArrayLike<number> | readonly (readonly number[])[];
     /** 7 to 20; 8 when it is left out, which reaches 128 m. */
     quantumBits?: number;
-    /** "solid" is closed; "surface" a height field; "moving" one whose vertices World.moveSurface moves. */
+    /** "solid" is closed; "surface" is a height field; "moving" is a height field whose vertices
+     * World.moveSurface moves. */
     kind?: "solid" | "surface" | "moving";
 }
 
-/** A mesh in the memory of a module, for its worlds alone. */
+/** A mesh in the memory of a module, only for the worlds of that module. */
 export interface Mesh {
     readonly vertexCount: number;
     readonly faceCount: number;
     readonly quantumBits: number;
 }
 
-/** Capacities, as in carom_memory.h. Those that are left out follow from `bodies`. */
+/** Capacities, as in carom_memory.h. Missing ones follow from `bodies`. */
 export interface Capacities {
     bodies: number;
     pairs?: number;
@@ -50,7 +52,7 @@ export interface Touch {
     readonly point: number[];
     /** From b into a. */
     readonly normal: number[];
-    /** At which they come together, m/s. */
+    /** The speed at which they approach, m/s. */
     readonly speed: number;
     restitution: number;
     friction: number;
@@ -65,7 +67,7 @@ export interface WorldOptions {
     sleep?: boolean;
     substepCap?: number;
     sweepCap?: number;
-    /** Asked about each contact; false drops it. Must depend on nothing but its argument. */
+    /** Asked about each contact; false drops it. The answer must depend only on the argument. */
     contact?: (touch: Touch) => boolean | void;
 }
 
@@ -130,7 +132,7 @@ export interface Event {
     speed: number;
     /** Impulse of a hit: N s. */
     impulse: number;
-    /** Place and faces of a hit, when the world has `hits` left. */
+    /** Place and faces of a hit, if the world has room in `hits`. */
     point?: number[];
     normal?: number[];
     faceA?: number;
@@ -147,7 +149,7 @@ export interface Contact {
 }
 
 export interface RayOptions {
-    /** Bodies whose category has a bit of it; 0: all. */
+    /** Only bodies whose category has a common bit with it; 0: all. */
     mask?: number;
     back?: boolean;
     sensors?: boolean;
@@ -226,7 +228,7 @@ export class World {
     remove(body: number): void;
     state(body: number): BodyState;
     rawState(body: number): RawBodyState;
-    /** Place a body and wake it; what is left out stays as it is. */
+    /** Place a body and wake it; missing values stay as they are. */
     set(body: number, state: Placing): void;
     /** Lead a kinematic body: it is there at the end of the next step. */
     moveTo(body: number, pose: { position?: Vector; rotation?: Quaternion }): void;
@@ -258,9 +260,9 @@ export class World {
     call(name: string, ...given: (number | bigint)[]): number;
 }
 
-/** The module's memory, for functions of the C interface that World has no method for. */
+/** The module's memory, for functions of the C interface for which World has no method. */
 export interface Memory {
-    /** The exports of the module: all public functions of the engine but those that draw. */
+    /** The exports of the module: all public functions of the engine except the drawing ones. */
     readonly c: WebAssembly.Exports;
     /** A block of zeros, aligned to 8. */
     take(bytes: number): number;
@@ -272,7 +274,7 @@ export interface Memory {
     call(name: string, ...given: (number | bigint)[]): number;
 }
 
-/** One module: its meshes and worlds. All of its memory is given back with it. */
+/** One module: its meshes and worlds. All of its memory is freed with it. */
 export class Carom {
     constructor(module: WebAssembly.Module);
     readonly memory: Memory;

@@ -34,7 +34,8 @@ class Mesh {
             this.at, raw, memory.take(bytes), bytes);
     }
 
-    /** Vertices as int16 quanta: those of an Int16Array as they are, others are metres and rounded. */
+    /** Vertices as int16 quanta: an Int16Array holds quanta already; other arrays hold metres,
+     * which are rounded. */
     quanta(vertices) {
         if (vertices instanceof Int16Array) {
             return vertices;

@@ -79,7 +79,7 @@ function struct(fields) {
         size: Math.ceil((last.at + last.type.size) / align) * align,
         read: (v, at) =>
             Object.fromEntries(fields.map((f) => [f.name, f.type.read(v, at + f.at)])),
-        // fields that are not given stay as they are: zero in cleared memory
+        // missing fields stay as they are: zero in cleared memory
         write: (v, at, values) => {
             for (const name of Object.keys(values)) {
                 const field = fields.find((f) => f.name === name);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The fixed-point fields of Carom's structs: fractional bits, and the power of seconds in their unit.
 
-/* name: of a field in SI; bits; per: 1 for a value a second, 2 for one a second squared; wide: int64. */
+/*
+ * name of a field in SI; bits; per: 1 for a value per second, 2 for one per second squared; wide:
+ * int64.
+ */
 export const FORMATS = {
     position: { bits: 32, per: 0, wide: true },
     from: { bits: 32, per: 0, wide: true },
@@ -37,7 +40,10 @@ export const FORMATS = {
     damping_q40: { name: "damping", bits: 40, per: 1, wide: true },
 };
 
-/** An SI value, or an array of them, as the integers of a field: cut off, as the macros of carom_fix.h do. */
+/**
+ * An SI value, or an array of them, as the integers of a field: truncated, as by the macros of
+ * carom_fix.h.
+ */
 export function convert(name, value, fps) {
     if (typeof value !== "number") {
         return Array.from(value, (each) => convert(name, each, fps));
@@ -50,7 +56,7 @@ export function convert(name, value, fps) {
     return wide ? BigInt(whole) : whole;
 }
 
-/** And back. */
+/** The reverse. */
 export function restore(name, value, fps) {
     if (Array.isArray(value)) {
         return value.map((each) => restore(name, each, fps));

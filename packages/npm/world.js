@@ -93,7 +93,7 @@ export class World {
         return this.memory.get(struct, at);
     }
 
-    /** The integers of a body's state, as carom_body_get has them. */
+    /** The integers of a body's state, as carom_body_get returns them. */
     rawState(body) {
         return this.#get("carom_body_get", "body_state", body);
     }
@@ -114,7 +114,7 @@ export class World {
         this.call("carom_body_move_to", body, this.memory.put("pose", pose));
     }
 
-    /** From the mesh's axes to the world's: 16 numbers by columns, as WebGL has them. */
+    /** From the mesh's axes to the world's: 16 numbers by columns, as WebGL expects them. */
     matrix(body, out = new Float64Array(16)) {
         const { r, origin } = this.#get("carom_body_matrix", "matrix", body);
         for (let row = 0; row < 3; row++) {

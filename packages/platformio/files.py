@@ -1,7 +1,7 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The files that PlatformIO compiles of a library, by its library.json: files.py FOLDER prints the sources, a line each;
-files.py FOLDER --flags the folders for headers and the flags.
+"""The files of a library that PlatformIO compiles, by its library.json: files.py FOLDER prints the sources, a line each;
+files.py FOLDER --flags prints the folders for headers and the flags.
 
 PlatformIO's rules: build.srcFilter is a list of +<pattern> and -<pattern>, applied in order; a pattern is one of glob below
 build.srcDir, and a folder that it names stands for all files below. build.includeDir and build.srcDir are in the path for

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The headers that src/bindings.rs has in Rust. */
+/* The headers that src/bindings.rs translates to Rust. */
 #include "carom_version.h"
 #include "carom_body.h"
 #include "carom_debug.h"

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* The vectors of a classic ARM (ARM9 and its kin), at address 0: every exception is a fault. */
+/*
+ * The vectors of a classic ARM (ARM9 and its relatives), at address 0: every exception is a fault.
+ */
     .section .vectors, "ax"
     .arm
     b reset
     b exception /* undefined instruction */
-    b exception /* supervisor call: semihosting takes its own before it comes here */
+    b exception /* supervisor call: the emulator has taken the semihosting calls before */
     b exception /* prefetch abort */
     b exception /* data abort */
     b exception /* reserved */

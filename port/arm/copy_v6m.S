@@ -30,7 +30,7 @@ __aeabi_memcpy8:
     subs r2, #4
     bhs 1b
 2:  adds r2, #4
-3:  subs r2, #1     /* the rest, or all, from the end */
+3:  subs r2, #1     /* the rest, or everything, from the end */
     blo 5f
 4:  ldrb r3, [r1, r2]
     strb r3, [r0, r2]

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The vector table of a Cortex-M: every exception is a fault, since nothing here uses interrupts.
+ * The vector table of a Cortex-M: every exception is a fault, because no program here uses
+ * interrupts.
  */
 #include "start.h"
 
-/* The first vector is the stack; a function by declaration, so that the table has one type. */
+/* The first vector is the stack. It is declared as a function, so that the table has one type. */
 extern void stack_top(void);
 
-/* The processor has pushed eight words; the seventh is the address it stopped at. */
+/* The processor has pushed eight words; the seventh is the address at which it stopped. */
 __attribute__((naked)) static void exception(void)
 {
     __asm__("mrs r0, msp\n"

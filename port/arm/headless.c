@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A Cortex-M board without a display: SysTick counts, semihosting does the rest. */
+/* A Cortex-M board without a display: SysTick counts, and semihosting does the rest. */
 #include "port.h"
 #include "arm/systick.h"
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The 64-bit product for a processor that multiplies 32 x 32 bits into 32 (ARMv6-M, Cortex-M0). The engine's arithmetic there
- * costs nearly nothing else: 24 instructions and no memory; libgcc takes 41.
+ * The 64-bit product for a processor whose product of 32 x 32 bits has 32 bits (ARMv6-M,
+ * Cortex-M0). The engine's arithmetic there spends nearly all of its time in it: 24 instructions
+ * and no memory; libgcc takes 41.
  *
- * (r1:r0) * (r3:r2), modulo 2^64, to r1:r0. Of the lower words a = a1:a0 and b = b1:b0, in halves,
+ * (r1:r0) * (r3:r2), modulo 2^64, to r1:r0. For the lower words a = a1:a0 and b = b1:b0, in halves,
  *
  *   a b = 2^32 a1 b1 + 2^16 (a0 b1 + a1 b0) + a0 b0
  *

@@ -4,7 +4,7 @@
 
 #include "port.h"
 
-/* The timer. It counts down and has 24 bits. */
+/* The timer counts down and has 24 bits. */
 struct systick {
     uint32_t control, reload, value;
 };
@@ -24,8 +24,8 @@ void systick_start(void)
 }
 
 /*
- * Add the ticks since the last call, modulo 2^24: right if fewer than 2^24 ticks pass between two calls. Every stage of a step
- * calls.
+ * Add the ticks since the last call, modulo 2^24: right if fewer than 2^24 ticks pass between two
+ * calls. Every stage of a step calls this function.
  */
 uint32_t port_ticks(void)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Arguments of a program without a shell: a runner writes them into the image, behind the vectors, each ended by a space. A
- * program that is simply switched on has none.
+ * Arguments of a program without a shell: a runner writes them into the image, behind the vectors,
+ * each ended by a space. A program that is only switched on has none.
  */
 #include "port.h"
 
@@ -10,7 +10,7 @@
 
 __attribute__((section(".vectors"), used)) static const volatile char room[ROOM] = {0};
 
-/* Cut the line at its spaces, in a copy: the image is read-only. */
+/* Cut the line at its spaces, in a copy, because the image is read-only. */
 const char *port_arg(int n)
 {
     static char line[ROOM];

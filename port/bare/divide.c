@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * 64-bit quotients for a processor that divides 32 bits by 32 at best (ARMv6-M, MIPS I). libgcc's find one bit at a time, or are
- * for a later processor.
+ * 64-bit quotients for a processor that divides 32 bits by 32 at best (ARMv6-M, MIPS I). libgcc's
+ * functions find one bit at a time, or are for later processors.
  */
 #include <stdint.h>
 
@@ -13,7 +13,8 @@ static uint32_t divide_digit(uint32_t *rest, uint32_t next, uint32_t d)
 {
     uint32_t q = *rest / (d >> 16), r = *rest - q * (d >> 16);
 
-    /* d's lower digit was left out, so q is too large by at most two: 2^16 + 1, and the product fits */
+    /* d's lower digit was left out, so q is too large by at most two: 2^16 + 1, and the product
+     * fits */
     while (q * (d & 0xffff) > (r << 16 | next)) {
         q--;
         r += d >> 16;
@@ -41,8 +42,8 @@ static uint32_t divide_words(uint32_t high, uint32_t low, uint32_t d)
 }
 
 /*
- * Divide by 33 bits or more. Half of n by the upper 32 bits of d is right or one too many when it is scaled back; so take one
- * off, and the rest shows which.
+ * Divide by 33 bits or more. Half of n divided by the upper 32 bits of d is right or one too large
+ * when it is scaled back. So subtract one, and the remainder shows which.
  */
 static uint32_t divide_by_wide(uint64_t n, uint64_t d)
 {
@@ -75,7 +76,7 @@ uint64_t __udivmoddi4(uint64_t n, uint64_t d, uint64_t *rest)
     return q;
 }
 
-/* The helper of __aeabi_ldivmod. The rest has the sign of n. */
+/* The helper of __aeabi_ldivmod. The remainder has the sign of n. */
 int64_t __gnu_ldivmod_helper(int64_t n, int64_t d, int64_t *rest)
 {
     uint64_t r, size = n < 0 ? 0 - (uint64_t)n : (uint64_t)n;

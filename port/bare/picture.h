@@ -8,8 +8,9 @@
 #define PICTURE_WIDTH_MAX 512
 
 /*
- * With the option pictures=DIRECTORY, write a framebuffer (PORT_RGB565 or PORT_XRGB8888) by semihosting as
- * DIRECTORY/frame-0001.ppm and so on, a number a call. Without it, do nothing.
+ * With the option pictures=DIRECTORY, write a framebuffer (PORT_RGB565 or PORT_XRGB8888) by
+ * semihosting as DIRECTORY/frame-0001.ppm and so on, one number a call. Without the option, do
+ * nothing.
  */
 void picture_write(const struct port_fb *fb);
 

@@ -25,7 +25,7 @@ enum { OPEN_READ_BINARY = 1, OPEN_WRITE_BINARY = 5 };
 #endif
 
 static struct {
-    char line[64]; /* one call for many characters is much faster than one for each */
+    char line[64]; /* one call for many characters is much faster than one call for each */
     size_t length;
 } console;
 
@@ -87,12 +87,15 @@ long port_read_file(const char *name, void *buffer, size_t max)
     if (file == -1) {
         return -1;
     }
-    left = semihost_call(SYS_READ, block); /* bytes that were not read */
+    left = semihost_call(SYS_READ, block); /* number of bytes that were not read */
     semihost_close(file);
     return (long)((intptr_t)max - left);
 }
 
-/* Put the arguments of a command line one after the other, each ended by a zero. Returns how many there are. */
+/*
+ * Put the arguments of a command line one after the other, each ended by a zero. Returns their
+ * number.
+ */
 static int split(char *line)
 {
     char *end = line;

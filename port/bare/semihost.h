@@ -20,7 +20,7 @@ intptr_t semihost_call(intptr_t operation, const void *block);
  */
 void semihost_picture(void);
 
-/* Files to write on the host: a handle, or -1. */
+/* Open a file to write on the host: a handle, or -1. */
 intptr_t semihost_create(const char *name);
 void semihost_write(intptr_t file, const void *bytes, size_t count);
 void semihost_close(intptr_t file);

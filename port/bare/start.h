@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-/* Fill memory, run main, leave with its status. The stack is set already. */
+/* Fill memory, run main, leave with its status. The stack must be set already. */
 _Noreturn void start(void);
 
 /* The reset vector of a Cortex-M: a board's own function that ends in start(), or start() itself. */

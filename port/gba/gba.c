@@ -39,7 +39,10 @@ const uint32_t port_ticks_hz = 16777216;
 
 _Noreturn void gba_start(void);
 
-/* Memory that start() does not know: the code that runs from RAM, memcpy among it, and the wide RAM. */
+/*
+ * Fill the memory that start() does not know: the code that runs from RAM, memcpy among it, and the
+ * wide RAM.
+ */
 _Noreturn void gba_start(void)
 {
     WAIT_CONTROL = CARTRIDGE_FASTEST;
@@ -88,7 +91,7 @@ uint32_t port_ticks(void)
 {
     uint32_t high = TIMER_COUNT(1), low = TIMER_COUNT(0), again = TIMER_COUNT(1);
 
-    /* the first may have wrapped in between: a small count belongs to the later reading */
+    /* the first timer may have wrapped in between: a small count belongs to the later reading */
     return (low < 0x8000 ? again : high) << 16 | low;
 }
 
@@ -102,7 +105,7 @@ static void send(const char *text, uint16_t level)
 {
     volatile char *to = DEBUG_TEXT;
 
-    DEBUG_ENABLE = DEBUG_UNLOCK; /* each time: a fault may come before port_init */
+    DEBUG_ENABLE = DEBUG_UNLOCK; /* set each time, because a fault may come before port_init */
     while (*text) {
         *to++ = *text++;
     }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Code in the 32 KB of the processor's RAM runs five times as fast as in the cartridge. Stepping a world and drawing it take turns
- * there (port/gba/fast.ld). The linker (--wrap) calls the functions __wrap_... below in place of the ones that draw, and these
- * exchange the two.
+ * Code in the 32 KB of the processor's RAM runs five times as fast as in the cartridge. Stepping a
+ * world and drawing it take turns there (port/gba/fast.ld). The linker (--wrap) calls the functions
+ * __wrap_... below in place of the drawing functions, and these exchange the two sets of code.
  */
 #include "memory.h"
 
@@ -50,7 +50,8 @@ static void load_draw(void)
 
 void memory_start(void)
 {
-    volatile uint32_t zero = 0; /* on the stack: a source in the cartridge would not stay fixed */
+    volatile uint32_t zero = 0; /* on the stack, because a source in the cartridge would not stay
+                                 * fixed */
 
     transfer(fast_load, fast_start, (size_t)(fast_end - fast_start), DMA_COPY);
     transfer(&zero, wide_start, (size_t)(wide_end - wide_start), DMA_FILL);

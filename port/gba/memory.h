@@ -3,7 +3,7 @@
 #ifndef CAROM_PORT_GBA_MEMORY_H
 #define CAROM_PORT_GBA_MEMORY_H
 
-/* Copy code that runs from RAM there, and clear the wide RAM. Calls nothing that is there. */
+/* Copy the code that runs from RAM, and clear the wide RAM. Calls no function that is copied. */
 void memory_start(void);
 
 #endif

@@ -2,8 +2,8 @@
 /*
  * The head of a Game Boy Advance cartridge, and the way from it to start().
  *
- * The place of the logo is empty, because we may not hand it out. Emulators start without it; a console needs it and the check sum
- * after it, which cartridge tools fill in (gbafix).
+ * The logo is left empty, because we may not distribute it. Emulators start without it; a console
+ * needs it and the check sum after it, and cartridge tools fill in both (gbafix).
  */
     .section .vectors, "ax"
     .arm

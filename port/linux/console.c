@@ -9,7 +9,7 @@ enum { ARGUMENTS_MAX = 64, PAINT = 0xa5, PAINT_BYTES = 65536 };
 
 static uintptr_t paint_start;
 
-/* The array is gone when this returns; later calls have their stack in the same memory. */
+/* The array is gone when this function returns; later calls have their stack in the same memory. */
 __attribute__((noinline)) static void paint_stack(void)
 {
     volatile uint8_t area[PAINT_BYTES];
@@ -35,7 +35,7 @@ uint32_t port_stack(void)
 void port_init(void)
 {
     paint_stack();
-    setvbuf(stdout, NULL, _IOLBF, 0); /* a runner follows what is printed */
+    setvbuf(stdout, NULL, _IOLBF, 0); /* a runner reads the lines while the program runs */
 }
 
 void port_putc(char c)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Executed instructions of a Linux program under tools/count.c, which leaves its count in shared memory. Reading it there is exact:
- * it makes no call and asks no clock.
+ * The number of executed instructions of a Linux program under tools/count.c, which leaves its
+ * count in shared memory. Reading the count is exact, because it makes no call and reads no clock.
  */
 #define _DEFAULT_SOURCE
 #include <sys/mman.h>

@@ -13,12 +13,12 @@ enum { WIDTH = 128, HEIGHT = 64 };
 
 #define REGISTER(address) (*(volatile uint32_t *)(address))
 
-/* System control. The clock: the PLL's 200 MHz, from a crystal of 8 MHz, by 4. */
+/* System control. The clock is the PLL's 200 MHz, from a crystal of 8 MHz, divided by 4. */
 #define PLL_STATUS    REGISTER(0x400fe050)
 #define PLL_LOCKED    (1u << 6)
 #define CLOCK         REGISTER(0x400fe060)
 #define CLOCK_CRYSTAL (14u << 6)
-#define CLOCK_BYPASS  (1u << 11) /* of the PLL */
+#define CLOCK_BYPASS  (1u << 11) /* flag of the PLL */
 #define CLOCK_DIVIDED (1u << 22)
 #define CLOCK_BY_4    (3u << 23)
 #define SERIAL_CLOCKS REGISTER(0x400fe104)
@@ -54,7 +54,7 @@ static void start_clock(void)
 {
     CLOCK = CLOCK_CRYSTAL | CLOCK_BYPASS;
     while (!(PLL_STATUS & PLL_LOCKED)) {
-        /* It takes half a millisecond at most. */
+        /* This takes half a millisecond at most. */
     }
     CLOCK = CLOCK_CRYSTAL | CLOCK_DIVIDED | CLOCK_BY_4 | CLOCK_BYPASS;
     CLOCK = CLOCK_CRYSTAL | CLOCK_DIVIDED | CLOCK_BY_4;
@@ -66,7 +66,7 @@ static void send(uint8_t byte)
     while (SERIAL->status & SERIAL_BUSY) {
         /* A byte takes two microseconds. */
     }
-    (void)SERIAL->data; /* read the answer, or the bus stops when its buffer is full */
+    (void)SERIAL->data; /* read the answer, because the bus stops when its buffer is full */
 }
 
 static void command(uint8_t byte)

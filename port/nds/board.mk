@@ -16,6 +16,6 @@ SCENES := head:9 head836:17 head450:21 pile:1 box:40 walker:11 door:9 conveyor:5
 ROM_SCENES := head head836 head450 pile box walker door conveyor
 GAME_CAPS := 11,32,128,512,0,1024,1,4
 PICTURES := 1
-# some tests are of scenes that it lacks, one of larger worlds
+# some tests use scenes that the board lacks, one uses larger worlds
 SUITES := $(filter-out scene_models draw_rows scene_games scene_lockstep query_recall,$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 SUITE_IMAGES := 1

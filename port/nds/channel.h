@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * channel.h - the console of a Nintendo DS under tools/retro_nds.c, in the pixels of its lower screen.
+ * channel.h - the console of a Nintendo DS under tools/retro_nds.c, in the pixels of its lower
+ * screen.
  *
- * A pixel holds 15 bits, red in the lowest. The rows from 1 on are a ring of characters, one a pixel. Row 0 is shown first. It
- * holds a mark, the count of characters written, and at last the exit status; the characters that it counts are below it in the
- * same frame.
+ * A pixel holds 15 bits, red in the lowest. The rows from 1 on are a ring of characters, one a
+ * pixel. The screen shows row 0 first. Row 0 holds a mark, the count of characters written, and at
+ * last the exit status; the counted characters are below it in the same frame.
  */
 #ifndef CAROM_PORT_NDS_CHANNEL_H
 #define CAROM_PORT_NDS_CHANNEL_H

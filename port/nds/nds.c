@@ -2,9 +2,10 @@
 /*
  * Nintendo DS: ARM946E-S at 67 MHz, two screens of 256 x 192 pixels of 15 bits, a pad.
  *
- * The upper screen shows a bank of memory, which holds the picture. The lower one is the console: a page of text, or, for a program
- * with arguments, the channel that a runner reads (channel.h). Then, with the option pictures=..., port_present prints the
- * line "picture" and lets a frame pass, which the runner takes.
+ * The upper screen shows a bank of memory, which holds the picture. The lower one is the console: a
+ * page of text, or, for a program with arguments, the channel that a runner reads (channel.h).
+ * Then, with the option pictures=..., port_present prints the line "picture" and lets a frame pass,
+ * which the runner photographs.
  */
 #include <stdbool.h>
 
@@ -97,7 +98,7 @@ static void wait_for_blank(void)
     }
 }
 
-/* Wait until the memory of this moment has been shown whole. */
+/* Wait until the screen has shown the present memory as a whole. */
 static void show_frame(void)
 {
     wait_for_blank();
@@ -117,7 +118,7 @@ uint32_t port_ticks(void)
 {
     uint32_t high = TIMER_COUNT(1), low = TIMER_COUNT(0), again = TIMER_COUNT(1);
 
-    /* the first may have wrapped in between: a small count belongs to the later reading */
+    /* the first timer may have wrapped in between: a small count belongs to the later reading */
     return ((low < 0x8000 ? again : high) << 16 | low) << 1;
 }
 

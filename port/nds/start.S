@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * From the loader to start() on a Nintendo DS's ARM946E-S: caches, the two RAMs of the processor (ITCM for code, DTCM for the
- * stack) and its vectors. It relies on nothing that the loader left.
+ * From the loader to start() on a Nintendo DS's ARM946E-S: caches, the two RAMs of the processor
+ * (ITCM for code, DTCM for the stack) and its vectors. It does not rely on any state that the
+ * loader left.
  */
     .section .vectors, "ax"
     .arm

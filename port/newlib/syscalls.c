@@ -2,9 +2,10 @@
 /*
  * The system calls that newlib needs, over the port's functions.
  *
- * There is no heap: _sbrk always refuses. snprintf of newlib nano works without one. Its printf does not: it allocates the standard
- * streams and writes through the NULL that it gets. So there is no _write or _read here, and a program that uses printf fails
- * to link instead of overwriting memory. Programs use snprintf and port_putc.
+ * There is no heap: _sbrk always refuses. snprintf of newlib nano works without a heap. Its printf
+ * does not: it allocates the standard streams and writes through the NULL pointer that it gets. So
+ * there is no _write or _read here: a program that uses printf fails to link, and cannot overwrite
+ * memory. Programs use snprintf and port_putc.
  */
 #include <errno.h>
 #include <stdint.h>
@@ -30,7 +31,7 @@ void *_sbrk(ptrdiff_t bytes)
     return (void *)(intptr_t)-1;
 }
 
-/* abort() raises a signal; there is one process to end. */
+/* abort() raises a signal for a process; there is only one. */
 int _getpid(void)
 {
     return 1;

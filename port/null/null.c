@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The port that does nothing. To bring up a board, copy this folder and fill in what the board has. A weak function gives way to one
- * of the board's family: remove WEAK from each function that you fill in.
+ * The port that does nothing. To bring up a board, copy this folder and fill in the functions that
+ * the board has. A weak function gives way to a function of the board's family: remove WEAK from
+ * each function that you fill in.
  */
 #include "port.h"
 

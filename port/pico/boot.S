@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The first 256 bytes of the flash. The RP2040's boot ROM copies them into RAM and runs them if the last four are the check sum
- * of the others (tools/uf2.py checks it). They set up the memory-mapped reading of the flash, which the ROM leaves off, and start what
- * follows.
+ * The first 256 bytes of the flash. The RP2040's boot ROM copies them into RAM and runs them if the
+ * last four are the check sum of the others (tools/uf2.py checks that). They set up the
+ * memory-mapped reading of the flash, which the ROM leaves off, and start the program that follows.
  *
- * Any serial flash knows the command 03h: read, at an address of 24 bits. The datasheet's section 4.10 describes the interface.
+ * Any serial flash knows the command 03h: read, at an address of 24 bits. The datasheet's section
+ * 4.10 describes the interface.
  */
     .syntax unified
     .cpu cortex-m0plus
@@ -38,12 +39,12 @@ loader:
     ldr r0, =VTOR
     ldr r1, =VECTORS
     str r1, [r0]
-    ldmia r1!, {r2, r3}     /* the stack, and where to begin */
+    ldmia r1!, {r2, r3}     /* the stack, and the entry point */
     msr msp, r2
     bx r3
     .balign 4
     .pool
     .org 252
-    .word 0x983e81ee /* the check sum; tools/uf2.py says what it must be */
+    .word 0x983e81ee /* the check sum; tools/uf2.py prints the right one */
 
     .section .note.GNU-stack, "", %progbits

@@ -31,7 +31,7 @@ enum {
 enum {
     SLEEP_OUT = 0x11,
     NORMAL = 0x13,
-    INVERT = 0x21, /* as this kind of panel wants it */
+    INVERT = 0x21, /* this kind of panel needs it */
     DISPLAY_ON = 0x29,
     COLUMNS = 0x2a,
     ROWS = 0x2b,
@@ -51,7 +51,7 @@ static struct {
 
 static void wait_us(uint32_t since_us, uint32_t us)
 {
-    while (TIMER_MICROSECONDS - since_us <= us) { /* the first may be nearly over */
+    while (TIMER_MICROSECONDS - since_us <= us) { /* the first microsecond may be nearly over */
     }
 }
 
@@ -62,7 +62,7 @@ static void drain(void)
     }
 }
 
-/* Set the word size, once all bits before are out. One wire tells commands from data. */
+/* Set the word size, once all earlier bits are out. One wire tells commands from data. */
 static void prepare(uint32_t bits, bool is_data)
 {
     drain();

@@ -10,7 +10,7 @@
 /* Begin to wake the display, which takes 120 ms. */
 void lcd_wake(void);
 
-/* Wait for that and turn the display on, unless it is on. */
+/* Wait until it is awake and turn the display on, unless it is on. */
 void lcd_turn_on(void);
 
 /* The row function of port_fb: sends the previous row while this one is drawn. */

@@ -3,9 +3,9 @@
  * Raspberry Pi Pico with Waveshare's Pico-LCD-1.3: an RP2040 at 125 MHz, which uses one of its two Cortex-M0+; a display of
  * 240 x 240 pixels (lcd.c), a stick and four keys.
  *
- * The console is UART 0 at 115200 baud, on pins 0 and 1. It ends with the character EOT and then the exit status as a
- * character. Arguments stand in the image (bare/arguments.c). With the option pictures=..., port_present prints the line "picture"
- * when the display has all of one.
+ * The console is UART 0 at 115200 baud, on pins 0 and 1. It ends with the character EOT and then
+ * the exit status as a character. Arguments stand in the image (bare/arguments.c). With the option
+ * pictures=..., port_present prints the line "picture" when the display has a whole picture.
  */
 #include "port.h"
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Quotients of 32 bits by the RP2040's divider, which takes 8 cycles (datasheet, section 2.3.1.5); libgcc's take a hundred. Nothing
- * interrupts them, so the divider's registers need not be saved.
+ * Quotients of 32 bits by the RP2040's divider, which takes 8 cycles (datasheet, section 2.3.1.5);
+ * libgcc's functions take a hundred. Nothing interrupts them, so the divider's registers need not
+ * be saved.
  */
     .syntax unified
     .cpu cortex-m0plus

@@ -19,7 +19,10 @@ static void release(uint32_t peripherals)
     }
 }
 
-/* The crystal's 12 MHz are the reference. The loop makes 1500 MHz of them, and 125 MHz of these. */
+/*
+ * The crystal's 12 MHz are the reference. The loop multiplies them to 1500 MHz, which are divided
+ * to 125 MHz.
+ */
 static void start_clocks(void)
 {
     /* after a reset of the processor alone the clocks may run from the loop */

@@ -2,7 +2,7 @@
 # PlayStation in pcsxr: R3000A, 320 x 240. The .exe files are what an emulator plays.
 CROSS := mipsel-linux-gnu-
 NEED := mipsel-linux-gnu cc libc python3 pcsxr
-# code that Linux needs is not needed; no number here is floating-point
+# leaves out code for Linux; no number here is floating-point
 ARCH := -march=r3000 -mfp32 -mno-abicalls -fno-pic -G0
 FAMILY_CFLAGS := -ffreestanding -Iport/nolibc
 FAMILY_LDFLAGS := -nostdlib -static -Wl,--build-id=none
@@ -20,7 +20,7 @@ ROM_SCENES := head head450 box walker door conveyor
 CAPS := 2,1,64,1024,256,1024
 GAME_CAPS := 16,32,128,512,0,1024,1,4
 PICTURES := 1
-# the parts that need no floating point: the processor has none
+# the suites that need no floating point, because the processor has none
 SUITES := port world_ask draw_debug draw draw_paint draw_picture draw_text world_filter world_identity mesh_blob world_overlap draw_pick mesh_scan scene \
     world_sensor mesh_surface world_idle world_query world_range world_snapshot mesh_zlist
 SUITE_IMAGES := 1

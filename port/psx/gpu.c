@@ -17,7 +17,7 @@ enum { WIDTH = 320, HEIGHT = 240, HALF = 256 /* rows from one picture to the oth
 #define DMA2_ADDRESS  REGISTER32(0x1f8010a0)
 #define DMA2_BLOCKS   REGISTER32(0x1f8010a4)
 #define DMA2_CONTROL  REGISTER32(0x1f8010a8)
-#define DMA2_SEND     0x01000201u /* blocks, as the device asks for them */
+#define DMA2_SEND     0x01000201u /* blocks, at the device's request */
 #define DMA2_RUNS     0x01000000u
 #define BLOCK_WORDS   16u
 #define VERTICAL_SYNC 1u

@@ -2,9 +2,9 @@
 /*
  * PlayStation: R3000A at 33.87 MHz, 2 MB. Registers as in "Nocash PSX Specifications".
  *
- * The console is the BIOS's: a byte a call, which goes to the emulator's output, to a serial line, or nowhere. The first byte of a line
- * lets tools/psx_run.py tell it from what the emulator prints; the exit status is a line of its own. Arguments stand in the image
- * (bare/arguments.c).
+ * The console is the BIOS's: a byte a call, which goes to the emulator's output, to a serial line,
+ * or nowhere. The first byte of a line lets tools/psx_run.py tell the line from the emulator's own
+ * output; the exit status is a line of its own. Arguments stand in the image (bare/arguments.c).
  */
 #include "psx.h"
 
@@ -25,13 +25,13 @@ void port_init(void)
 #define LINES_MODE  REGISTER16(0x1f801114)
 #define CYCLES      REGISTER16(0x1f801120) /* counter 2 */
 #define CYCLES_MODE REGISTER16(0x1f801124)
-#define COUNT_LINES 0x100 /* of the display */
+#define COUNT_LINES 0x100 /* counts the lines of the display */
 #define COUNT_ALL   0
 #define SHARE_BITS  4
 
 const uint32_t port_ticks_hz = 33868800;
 
-static uint32_t line_cycles; /* of one line of the display, in 1/16 */
+static uint32_t line_cycles; /* cycles of one line of the display, in 1/16 */
 
 static uint16_t next_line(void)
 {
@@ -57,15 +57,15 @@ void ticks_start(void)
 }
 
 /*
- * Cycles. The counter of cycles has 16 bits and wraps in 2 milliseconds; the display lines since the last call tell how often. Call it
- * at least once a second.
+ * Cycles. The counter of cycles has 16 bits and wraps in 2 milliseconds; the number of display
+ * lines since the last call tells how often. Call this function at least once a second.
  */
 uint32_t port_ticks(void)
 {
     static uint32_t ticks, line_before, cycles_before;
     uint32_t line = LINES, cycles = CYCLES;
     uint32_t about = (line - line_before) % 65536 * line_cycles >> SHARE_BITS;
-    /* the nearest of all numbers that end as the counter does */
+    /* the nearest of all numbers whose lower bits are those of the counter */
     uint32_t more = (cycles - cycles_before - about) % 65536;
 
     ticks += about + more - (more >= 32768 ? 65536 : 0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * From the loader to start(). The loader leaves the BIOS's interrupts on. They are turned off: nothing here waits for one, and they would
- * count as cycles.
+ * From the loader to start(). The loader leaves the BIOS's interrupts on. They are turned off: no
+ * program here waits for an interrupt, and interrupts would count as cycles.
  */
     .section .vectors, "ax"
     .set noreorder

@@ -5,7 +5,7 @@ ARCH := -mcpu=arm1176jz-s -marm -mno-unaligned-access
 PORT := port/raspi0/raspi0.c port/raspi0/memory.c port/raspi0/start.S
 IMAGE_SUFFIX := .bin
 QEMU := qemu-system-arm -M raspi0
-# A tick of the timer, 1000 ns, is the longest that is shorter than an instruction.
+# An instruction takes 1024 ns, the smallest power of two above a tick of the timer, 1000 ns.
 ICOUNT_SHIFT := 10
 CPU := ARM1176JZF-S
 CLOCK_MHZ := 1000

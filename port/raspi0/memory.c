@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Caches need a table of pages that says which memory they hold. This table has sections of 1 MB, in the format of ARMv6 (ARM1176JZF-S
- * Technical Reference Manual, chapter 6).
+ * Caches need a table of pages that tells which memory they hold. This table has sections of 1 MB,
+ * in the format of ARMv6 (ARM1176JZF-S Technical Reference Manual, chapter 6).
  */
 #include "memory.h"
 
@@ -51,7 +51,7 @@ void memory_start(const void *framebuffer, size_t bytes)
     map(PERIPHERALS_FROM, PERIPHERALS_TO, DEVICE | EXECUTE_NEVER);
     memory_barrier();
     __asm__ volatile("mcr p15, 0, %1, c7, c7, 0\n" /* both caches are empty */
-                     "mcr p15, 0, %1, c8, c7, 0\n" /* and what is cached of the table */
+                     "mcr p15, 0, %1, c8, c7, 0\n" /* and the cached entries of the table */
                      "mcr p15, 0, %2, c2, c0, 0\n"
                      "mcr p15, 0, %1, c2, c0, 2\n"  /* which is the only table */
                      "mcr p15, 0, %3, c3, c0, 0\n"  /* domain 0 obeys its permissions */

@@ -9,8 +9,8 @@
 void memory_barrier(void);
 
 /*
- * Turn the caches on for memory, except a framebuffer of so many bytes, and except registers. Addresses do not change; an access to
- * anything else is a fault.
+ * Turn the caches on for memory, except for a framebuffer of so many bytes and for registers.
+ * Addresses do not change; an access to any other address is a fault.
  */
 void memory_start(const void *framebuffer, size_t bytes);
 

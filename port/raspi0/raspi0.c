@@ -82,9 +82,9 @@ void port_present(void)
 }
 
 /*
- * Under QEMU's -icount shift=10 the n-th instruction is at 1024 n ns, and the timer shows whole microseconds of that. No two
- * instructions share one, so the timer yields n. A tick is half an instruction, since the rate of instructions is no whole number of
- * hertz.
+ * Under QEMU's -icount shift=10 the n-th instruction is at 1024 n ns, and the timer shows whole
+ * microseconds of that. No two instructions share a microsecond, so the timer yields n. A tick is
+ * half an instruction, because the rate of instructions is no whole number of hertz.
  */
 const uint32_t port_ticks_hz = 1953125;
 

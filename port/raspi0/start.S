@@ -25,7 +25,9 @@ go:
     mcr p15, 0, r0, c12, c0, 0 /* the vectors are here, not at address 0 */
     b start
 
-/* On a board without an emulator nobody answers a semihosting call: it succeeds and does nothing. */
+/*
+ * On a board without an emulator nobody answers a semihosting call: it succeeds and does nothing.
+ */
 no_host:
     mov r0, #0
     movs pc, lr

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Ticks are instructions: RISC-V counts those that it has retired.
+ * Ticks are instructions: a RISC-V counts the instructions that it has retired.
  *
- * QEMU's counter is its virtual time in ns under -icount, hence the shift of 0: one instruction a ns.
+ * QEMU's counter is its virtual time in ns under -icount, hence the shift of 0: one instruction a
+ * ns.
  */
 #include "port.h"
 

@@ -13,7 +13,7 @@ reset:
     csrw mtvec, t0
     j start
 
-/* Nothing here uses interrupts: every trap is a fault. The stack may be used again. */
+/* No program here uses interrupts: every trap is a fault. The stack may be used again. */
     .balign 4
 exception:
     la sp, stack_top

@@ -5,7 +5,7 @@ ARCH := -march=rv32im -mabi=ilp32 -misa-spec=2.2
 PORT := port/riscv32/virt.c
 QEMU := qemu-system-riscv32 -M virt -bios none -device bochs-display,romfile=
 ICOUNT_SHIFT := 0
-# While a picture is taken there is no timer that the emulator could skip to.
+# While a picture is taken, there is no timer to which the emulator could skip.
 ICOUNT_SLEEP := on
 PICTURES := 1
 CPU := RV32IM

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A window of SDL2 on the viewer of examples/view.h: build/host/window.elf scene=NAME, or mesh=FILE (a blob of carom-mesh) or
- * link=TEXT. `make view` builds and starts it. It prints the link when K is pressed, and whether a link that was followed ended in
- * its state.
+ * A window of SDL2 on the viewer of examples/view.h: build/host/window.elf scene=NAME, or
+ * mesh=FILE (a blob of carom-mesh) or link=TEXT. `make view` builds and starts it. The program
+ * prints the link when K is pressed, and reports whether a followed link ended in its state.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -249,7 +249,7 @@ static void draw(void)
     the.changed = false;
 }
 
-/* Step each sixtieth of a second; of a longer delay only LATE_MAX frames are caught up with. */
+/* Step each sixtieth of a second; after a longer delay, catch up with LATE_MAX frames only. */
 static void run(void)
 {
     const uint64_t hz = SDL_GetPerformanceFrequency();
@@ -273,7 +273,10 @@ static void run(void)
     }
 }
 
-/* SDL has drivers that show nothing, and takes one if there is no other. Use such a driver only if it is asked for. */
+/*
+ * SDL has drivers that show nothing, and takes one of them if there is no other. Use one only if
+ * the user asks for it.
+ */
 static bool has_display(void)
 {
     static const char *const blind[] = {"dummy", "offscreen", "evdev"};

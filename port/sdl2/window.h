@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* window.h - what the two files of the window share. window.c: scenes, time, the picture. input.c: keys and pointer. */
+/*
+ * window.h - the interface between the two files of the window. window.c: scenes, time, the
+ * picture. input.c: keys and pointer.
+ */
 #ifndef CAROM_PORT_SDL2_WINDOW_H
 #define CAROM_PORT_SDL2_WINDOW_H
 
@@ -9,7 +12,7 @@
 
 struct window {
     SDL_Window *window;
-    SDL_Surface *picture; /* of the viewer's pixels */
+    SDL_Surface *picture; /* has the viewer's pixels */
     bool changed;         /* the picture must be drawn again */
     bool over;
     int scene; /* index of scene_name */
@@ -17,7 +20,7 @@ struct window {
     bool paused, help, user;
     int slow;
     bool grabs, turns, pans;
-    int stands; /* the error at which the world stands still */
+    int stands; /* the error at which the world stopped */
     bool aims;  /* a link is followed to its state */
     int aim_frame;
     char aim_hash[17];

@@ -19,5 +19,6 @@ LINE_BYTES := 64
 PICTURES := 0
 SUITES := port num_fix num_arena mesh_scan mesh_zlist mesh_mass
 SUITE_IMAGES := 1
-# The program of the matrix is too large; make test BOARD=stm32vldiscovery compares the hash of the scene instead.
+# The program of the matrix is too large; make test BOARD=stm32vldiscovery compares the hash of the scene in place
+# of it.
 MATRIX := 0

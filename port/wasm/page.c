@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * page.c - the viewer of view.h in a page: memory for the data between it and JavaScript. Other functions the page calls directly:
- * board.mk exports them. Text goes both ways in page_text, with a 0 at its end.
+ * page.c - the viewer of view.h in a page: memory for the data between the viewer and JavaScript.
+ * The page calls all other functions directly: board.mk exports them. Text goes both ways in
+ * page_text, with a 0 at its end.
  */
 #include "port.h"
 #include "scene.h"
@@ -11,7 +12,7 @@
 #define IMPORT(name) __attribute__((import_module("page"), import_name(#name)))
 #define PIXELS_MAX   (1920 * 1080)
 #define TEXT_BYTES   (1 << 18)
-#define VERTICES_MAX 24000 /* of a mesh that the page brings */
+#define VERTICES_MAX 24000 /* vertices of a mesh that the page brings */
 #define FACES_MAX    (2 * VERTICES_MAX)
 
 /* Microseconds, by the browser's clock, which advances in steps of its own. */
@@ -40,7 +41,10 @@ int page_room(int what)
     return room[what];
 }
 
-/* Open scene `user` with the mesh in page_vertices and page_faces. A refused mesh leaves the scene on show. */
+/*
+ * Open scene `user` with the mesh in page_vertices and page_faces. If the mesh is refused, the
+ * present scene stays.
+ */
 int page_open_mesh(uint32_t vertices, uint32_t faces)
 {
     struct carom_mesh_raw raw = {page_vertices, page_faces, vertices, faces, 12, CAROM_SOLID};

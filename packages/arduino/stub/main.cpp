@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs a sketch for some frames, as a core does for ever. Prints what was sent to a display as a PBM picture. */
+/*
+ * Runs a sketch for some frames, where a core would run it for ever. Prints the bytes sent to a
+ * display as a PBM picture.
+ */
 #include "Arduino.h"
 #include "Wire.h"
 

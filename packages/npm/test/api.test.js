@@ -19,7 +19,7 @@ test("a body in the air obeys free fall", async () => {
     }
     const { position, velocity } = world.state(body);
     near(position[0], 3, 1e-6);
-    near(position[2], 45, 0.1); // gravity of a frame acts at once: within g t / fps
+    near(position[2], 45, 0.1); // a frame's gravity acts at once: within g t / fps
     near(velocity[2], -10, 1e-6);
 });
 

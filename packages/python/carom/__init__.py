@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Carom: rigid bodies of any triangle mesh, computed in integers, the same bits everywhere.
 
-Metres, seconds, kilograms and radians go in and come out. A number is cut off to its fixed-point format, as by the macros of
-carom_fix.h; vertices are rounded to quanta. `lib` and `ffi` are the whole C interface except drawing.
+Arguments and results are in metres, seconds, kilograms and radians. A number is truncated to its fixed-point format, as by
+the macros of carom_fix.h; vertices are rounded to quanta. `lib` and `ffi` are the whole C interface except drawing.
 """
 from carom._engine import ffi, lib
 from carom.mesh import Mesh

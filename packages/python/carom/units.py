@@ -4,7 +4,8 @@ import numpy as np
 
 from carom._engine import ffi, lib
 
-# Fractional bits of a format, and the power of seconds in its unit: 1 for a value a second, 2 for a second squared.
+# The fractional bits of a format, and the power of seconds in its unit: 1 for a value per second, 2 for one per
+# second squared.
 POSITION = 32, 0
 UNIT = 30, 0  # rotations, unit vectors, restitution, parts of a way
 FRICTION = 16, 0
@@ -23,14 +24,14 @@ class CaromError(Exception):
 
 
 def checked(result):
-    """Returns the result of a call, or raises its error."""
+    """Return the result of a call, or raise its error."""
     if result < 0:
         raise CaromError(result)
     return result
 
 
 def fixed(value, kind, fps=1):
-    """An SI number, or several, as integers of a format, cut off towards zero."""
+    """An SI number, or several, as integers of a format, truncated towards zero."""
     bits, per = kind
     if np.ndim(value):
         return [fixed(each, kind, fps) for each in value]

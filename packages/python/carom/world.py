@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A world: bodies, steps, and what the last step found."""
+"""A world: bodies, steps, and the results of the last step."""
 from typing import NamedTuple
 
 import numpy as np
@@ -86,7 +86,7 @@ class World:
         self.fps = fps
         self.contact = contact
         self.failed = None  # an exception of `contact` or `wants`, which C cannot pass on
-        self.meshes = {}    # by body: kept, because the world refers to them
+        self.meshes = {}    # by body; they are kept because the world refers to them
         self.handle = ffi.new_handle(self)
         self.caps = capacities(bodies, given)
         config = ffi.new("struct carom_config *", {
@@ -124,7 +124,8 @@ class World:
     # ---------------------------------------------------------------- bodies
 
     def add(self, mesh, one_way="both", overlap="refuse", filter=None, **values):
-        """Add a body: its number. Values are the fields of struct carom_body_def in SI, without format suffixes."""
+        """Add a body; returns its number. Values are the fields of struct carom_body_def in SI, without
+        format suffixes."""
         definition = ffi.new("struct carom_body_def *", {
             "mesh": mesh.c, "one_way": ONE_WAY.index(one_way), "overlap": OVERLAP.index(overlap),
             "filter": filter or {}})
@@ -146,7 +147,7 @@ class World:
         return self.get(body).asleep
 
     def set(self, body, overlap="refuse", **values):
-        """Place a body and wake it: position, rotation, velocity, spin; the others stay as they are."""
+        """Place a body and wake it: position, rotation, velocity, spin; missing ones stay as they are."""
         state = self.get(body)
         self._fill(state, BODY, values)
         state.overlap = OVERLAP.index(overlap)
@@ -184,7 +185,7 @@ class World:
     # ------------------------------------------------------------------ poses
 
     def raw_poses(self):
-        """Where all bodies are and how they move, in Carom's integers: int64 and, of rotations, int32."""
+        """Places and motions of all bodies, in Carom's integers: int64, and int32 for rotations."""
         count = lib.carom_body_count(self.c)
         poses = Poses(np.zeros((count, 3), np.int64), np.zeros((count, 4), np.int32),
                       np.zeros((count, 3), np.int64), np.zeros((count, 3), np.int64))
@@ -262,7 +263,8 @@ class World:
 
     def add_joint(self, kind, a, anchor, b=-1, anchor_b=(0, 0, 0), axis=(0, 0, 0), touch=False, most_impulse=0,
                   **drive):
-        """Add a joint: its number. The drive is struct carom_joint_drive in SI, without format suffixes."""
+        """Add a joint; returns its number. The drive is struct carom_joint_drive in SI, without format
+        suffixes."""
         definition = ffi.new("struct carom_joint_def *", {"kind": JOINTS.index(kind), "touch": touch, "a": a, "b": b})
         fields = {"anchor": ("anchor", POSITION), "anchor_b": ("anchor_b", POSITION), "axis": ("axis", UNIT),
                   "most_impulse": ("most_impulse_q40", VELOCITY)}
@@ -298,7 +300,8 @@ class World:
 
 
 def keep(kind, failed, trace):
-    """An exception in a function that the engine calls: the call into the engine raises it when it is back."""
+    """Keep an exception of a function that the engine calls: the call into the engine raises it when it
+    returns."""
     world = trace.tb_frame.f_locals.get("world")
     if world is not None:
         world.failed = failed

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests of the wheel as it is installed."""
+"""Tests of the installed wheel."""
 import os
 import runpy
 import subprocess
@@ -16,7 +16,7 @@ GROUND = np.array([[-9999, -9999, 0], [9999, -9999, 0], [0, 9999, 0]], np.int16)
 
 
 def scene(**options):
-    """A world over a ground of stationary triangle 0, and a tetrahedron to add."""
+    """A world whose ground is stationary triangle 0, and a tetrahedron to add."""
     world = carom.World(**{"bodies": 4, **options})
     world.add(carom.Mesh(GROUND, [[0, 1, 2]], kind="surface"), stationary=True, friction=0.5)
     return world, carom.Mesh(CORNERS, SIDES)

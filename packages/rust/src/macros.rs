@@ -36,7 +36,7 @@ pub const fn caps(
     carom_caps { bodies, pairs, contacts, faces, entries, candidates, joints, extras, hits }
 }
 
-/// CAROM_WORLD_BYTES: of the block of a world.
+/// CAROM_WORLD_BYTES: bytes of the block of a world.
 pub const fn world_bytes(caps: &carom_caps) -> usize {
     let (b, p, c) = (caps.bodies as usize, caps.pairs as usize, caps.contacts as usize);
     let (f, e, n) = (caps.faces as usize, caps.entries as usize, caps.candidates as usize);
@@ -68,7 +68,7 @@ const fn array(count: usize, size: usize) -> usize {
     (count * size + 7) / 8 * 8
 }
 
-/// CAROM_MESH_BYTES: of the block of a mesh.
+/// CAROM_MESH_BYTES: bytes of the block of a mesh.
 pub const fn mesh_bytes(vertices: u32, faces: u32) -> usize {
     let (v, f) = (vertices as usize, faces as usize);
     let leaf_faces = CAROM_LEAF_FACES as usize;
@@ -87,7 +87,7 @@ pub const fn mesh_bytes(vertices: u32, faces: u32) -> usize {
         + array(8 * f, size_of::<carom_zref>())
 }
 
-/// CAROM_SURFACE_BYTES: of the block of a surface that moves.
+/// CAROM_SURFACE_BYTES: bytes of the block of a moving surface.
 pub const fn surface_bytes(vertices: u32, faces: u32) -> usize {
     mesh_bytes(vertices, faces) + (12 * vertices as usize + 80 + 7) / 8 * 8
 }
@@ -97,7 +97,7 @@ pub const fn blob_bytes(vertices: u32, faces: u32) -> usize {
     6 * vertices as usize + 6 * faces as usize + 16
 }
 
-/// CAROM_RATIO: n / d with `bits` fractional bits, cut off.
+/// CAROM_RATIO: n / d with `bits` fractional bits, truncated.
 pub const fn ratio(n: i64, d: i64, bits: u32) -> i64 {
     n * (1 << bits) / d
 }
@@ -157,7 +157,7 @@ const fn deg_q40(deg: i64) -> i64 {
     deg * 0x477D1A894 + deg * 0xA74E4570 / (1 << 32)
 }
 
-/// CAROM_DRAW_BYTES: workspace that draws bodies of so many vertices and faces, all together, in one go.
+/// CAROM_DRAW_BYTES: workspace that draws bodies with this total of vertices and faces in one part.
 pub const fn draw_bytes(vertices: u32, faces: u32) -> usize {
     12288 + 10 * vertices as usize + 11 * faces as usize
 }
