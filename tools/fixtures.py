@@ -10,6 +10,7 @@ import os
 import subprocess
 import sys
 
+import claims
 import marked
 import results
 
@@ -43,6 +44,7 @@ def write_docs(rows):
     lines = ["| %s |" % " | ".join(TITLES), "|" + "---|" * len(TITLES)]
     lines += ["| %s |" % " | ".join(row[name] for name in COLUMNS) for row in rows]
     marked.write(DOCS, "fixtures", lines)
+    claims.write()
 
 
 def main():

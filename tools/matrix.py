@@ -22,7 +22,9 @@ import sys
 import threading
 import time
 
+import claims
 import gate
+import marked
 import run_board
 
 ROOT = run_board.ROOT
@@ -91,24 +93,6 @@ NO_LIBRARY_PORT = ["port/nolibc/string.c"]
 NO_LIBRARY_OPTIONS = ["-ffreestanding", "-I%s/port/nolibc" % ROOT]
 MESHES = {}  # by target: objects
 MAKING = threading.Lock()  # boards share tools and meshes
-
-DOCS_HEAD = """<!-- SPDX-License-Identifier: MIT -->
-# One answer on every machine
-
-`make matrix` builds the engine in many ways, plays the same scenes on each and compares the hashes of
-all states. It wrote this page when it last ran whole: %d builds, %d scenes, one hash each. %d snapshots
-that one build had taken in frame 500 were gone on with by another, of the other byte order or word
-length, to the same end.
-
-A scene's hash is over the state after every frame, the step's status and events and what was asked of
-the world: faces that interfere, what lies inside of what, pictures. tests/lib/plays.c has the scenes. Every
-other build finds its memory full of rubbish. A line a build and scene is in out/matrix.csv.
-What clang makes for mips and mipsel is MIPS II code. SuperH's is not optimised, since GCC 12 loses
-comparisons there.
-
-| target | bits | byte order | compiler | runs on | builds |
-|---|---|---|---|---|---|
-"""
 
 
 class Failure(Exception):
@@ -465,24 +449,25 @@ def docs_rows(builds):
             len(group))
 
 
-def write_docs(builds, crossings):
+def docs_lines(builds, crossings):
     """A summary: the targets, the options and the hashes, each once."""
     scenes = builds[0].scenes
-    with open(DOCS, "w") as file:
-        file.write(DOCS_HEAD % (len(builds), len(scenes), sum(crossings.values())))
-        file.write("\n".join(docs_rows(builds)))
-        file.write("\n\n| compiler | option sets, each a build |\n|---|---|\n")
-        by_compiler = {}
-        for build in builds:
-            by_compiler.setdefault(build.compiler, {})[build.options] = None
-        for compiler, options in by_compiler.items():
-            file.write("| %s | %s |\n" % (compiler, ", ".join("`%s`" % each for each in options)))
-        file.write("\n| scene | frames | with a body awake | hash |\n|---|---|---|---|\n")
-        for scene, words in scenes.items():
-            file.write("| %s | %s | %s | `%s` |\n" % (scene, *words[:3]))
-        for build in builds:
-            if build.absent:
-                file.write("\n%s has no room for %s.\n" % (build.target, ", ".join(build.absent)))
+    yield "%d builds, %d scenes, one hash each; %d snapshots of one build were continued by another." % (
+        len(builds), len(scenes), sum(crossings.values()))
+    yield from ["", "| target | bits | byte order | compiler | runs on | builds |", "|---|---|---|---|---|---|"]
+    yield from docs_rows(builds)
+    yield from ["", "| compiler | option sets, each a build |", "|---|---|"]
+    by_compiler = {}
+    for build in builds:
+        by_compiler.setdefault(build.compiler, {})[build.options] = None
+    for compiler, options in by_compiler.items():
+        yield "| %s | %s |" % (compiler, ", ".join("`%s`" % each for each in options))
+    yield from ["", "| scene | frames | with a body awake | hash |", "|---|---|---|---|"]
+    for scene, words in scenes.items():
+        yield "| %s | %s | %s | `%s` |" % (scene, *words[:3])
+    for build in builds:
+        if build.absent:
+            yield from ["", "%s has no room for %s." % (build.target, ", ".join(build.absent))]
 
 
 def chosen(arguments):
@@ -523,7 +508,8 @@ def main():
     if len(builds) == len(list(every_build(arguments.short))) and not arguments.scene:
         write_csv(done)
         if not arguments.short and not failures:
-            write_docs(done, crossings)
+            marked.write(DOCS, "matrix", docs_lines(done, crossings))
+            claims.write()
     return bool(failures)
 
 

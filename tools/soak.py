@@ -16,6 +16,7 @@ import sys
 import threading
 import time
 
+import claims
 import gate
 import marked
 
@@ -169,6 +170,7 @@ def document(by_kind):
     if "" in by_kind:
         rows, wall = by_kind[""]
         marked.write(DOCS, "soak", lines_of_table([summary("", rows, wall)]) + faults_of(rows))
+        claims.write()
     machines = {kind: made for kind, made in by_kind.items() if kind}
     if machines:
         rows = [row for made, _ in machines.values() for row in made]
