@@ -7,6 +7,8 @@ OPT ?= -O2
 LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
 PAPER ?=
+# 1: instrumented for libFuzzer
+FUZZ ?=
 # 1: the engine is the two source files of `make amalgamation`
 JOINED ?=
 
@@ -36,13 +38,13 @@ ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 
 # ---------------------------------------------------------------- tools, flags
 
-B := build/$(BOARD)$(if $(DEBUG),-debug)$(if $(JOINED),-joined)
+B := build/$(BOARD)$(if $(DEBUG),-debug)$(if $(FUZZ),-fuzz)$(if $(JOINED),-joined)
 TARGET_CC := $(or $(COMPILER),$(if $(CROSS),$(CROSS)gcc,$(CC)))
 TARGET_AR := $(CROSS)ar
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 space := $(subst ,, )
-SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
+SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined$(if $(FUZZ),$(comma)fuzzer-no-link -fno-sanitize-coverage=trace-cmp) -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
@@ -150,7 +152,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics soak bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics soak fuzz bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -192,14 +194,15 @@ test: ## run every test, here and on a board, and a scene on every board; BOARD=
 	    sdl2 xvfb xdotool
 	@tools/need npm:tools/web
 	@$(SUBMAKE) BOARD=host build/host/tests.elf build/host/zlists.elf $(HOST_TESTS) $(ACCURACY) $(WINDOW) build/tools/carom-mesh
-	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf
+	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf \
+	    build/host-debug/host_inputs.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
 	@$(if $(PAGE),$(SUBMAKE) BOARD=wasm $(PAGE))
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \
 	    build/host/tests.elf build/host-debug/tests.elf build/host-debug/host_fuzz.elf \
-	    build/host-debug/host_replay.elf \
+	    build/host-debug/host_replay.elf build/host-debug/host_inputs.elf \
 	    $(CORTEX_TESTS) \
 	    && $(all_built)
 endif
@@ -241,6 +244,13 @@ soak: ## run random worlds under an independent checker, to out/soak.csv and doc
 	@$(SUBMAKE) BOARD=host build/host/host_soak.elf
 	@tools/soak.py build/host/host_soak.elf --first $(SEED) --count $(N) \
 	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs)
+
+SECONDS ?= 60
+fuzz: ## libFuzzer over calls, questions, pictures, snapshots, recordings, meshes, with sanitizers; SECONDS=60 in all or N= runs each, TARGETS=calls,draw RECORD=1
+	@tools/need $(NEED_MESHES) $(NEED_HOST) clang llvm
+	@$(SUBMAKE) BOARD=host DEBUG=1 FUZZ=1 COMPILER=clang build/host-debug-fuzz/fuzz.elf
+	@tools/fuzz.py build/host-debug-fuzz/fuzz.elf --seconds $(SECONDS) $(if $(filter command environment,$(origin N)),--runs $(N)) \
+	    $(if $(TARGETS),--targets $(TARGETS)) $(if $(RECORD),--record)
 
 bench: ## count instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
@@ -459,8 +469,8 @@ $(B)/record.elf: $(patsubst %.c,$(B)/recorded/%.o,$(RECORDED)) $(SUPPORT) $(B)/l
 	@echo '  link  $@'
 	$(link)
 
-# The random calls of this test are recorded, too.
-$(B)/host_replay.elf: $(patsubst %.c,$(B)/recorded/%.o,$(wildcard tests/lib/fuzz*.c))
+# The random calls of these tests are recorded, too.
+$(B)/host_replay.elf $(B)/host_inputs.elf $(B)/fuzz.elf: $(patsubst %.c,$(B)/recorded/%.o,$(wildcard tests/lib/fuzz*.c))
 
 $(B)/tests.elf: $(call objects,tests/main.c $(SUITES:%=tests/test_%.c)) $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
@@ -469,6 +479,8 @@ $(B)/tests.elf: $(call objects,tests/main.c $(SUITES:%=tests/test_%.c)) $(B)/lib
 $(B)/suite_%.elf: $(B)/tests/test_%.o $(B)/tests/main.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
+
+$(B)/fuzz.elf: private LDFLAGS += -fsanitize=fuzzer
 
 $(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
 $(B)/host_paper.elf: $(call objects,$(wildcard tests/paper/*.c))

@@ -56,16 +56,21 @@ static void set_path(struct swept *s, int32_t from_q30, int32_t to_q30)
     }
 }
 
-/* Check the way's range, and set the length of parts: at most half a radius. */
+/* Check the way's range, and set the length of parts: at most half a radius. Any numbers may come in. */
 static int check_way(struct swept *s)
 {
-    int64_t length_q32 = fix_length(s->way->way.c);
-    int64_t radius_q32 = (int64_t)s->bodies[0].def.radius_q22 << 10;
+    const int32_t *u = s->way->turn.c;
+    const int64_t turn[3] = {u[0], u[1], u[2]};
+    const int64_t radius_q32 = (int64_t)s->bodies[0].def.radius_q22 << 10;
+    int64_t length_q32;
 
     if (!world_each_within(s->way->way.c, (int64_t)BODY_WORLD_LIMIT << 32) ||
-        fix_largest(s->way->turn.c) > TURN_MAX_Q30 ||
-        carom_dot(s->way->turn.c, s->way->turn.c) > (int64_t)TURN_MAX_Q30 * TURN_MAX_Q30 ||
-        length_q32 > WAY_RADII * radius_q32) {
+        !world_each_within(turn, TURN_MAX_Q30) ||
+        carom_dot(u, u) > (int64_t)TURN_MAX_Q30 * TURN_MAX_Q30) {
+        return CAROM_ERR_RANGE;
+    }
+    length_q32 = fix_length(s->way->way.c);
+    if (length_q32 > WAY_RADII * radius_q32) {
         return CAROM_ERR_RANGE;
     }
     s->straight = (s->way->turn.c[0] | s->way->turn.c[1] | s->way->turn.c[2]) == 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Random calls of a small world, half of them with hostile arguments. */
+/* Calls of a small world, half of them with hostile arguments. */
 #include "fuzz.h"
 
 #include <stdlib.h>
@@ -11,25 +11,12 @@
 
 int fuzz_pick(struct fuzz *f, int count)
 {
-    return (int)test_random_range(&f->r, 0, count - 1);
+    return chance_pick(&f->chance, count);
 }
 
 int64_t fuzz_number(struct fuzz *f, int bits)
 {
-    static const int64_t extreme[] = {0,         1,        -1, INT64_MAX, INT64_MIN, INT64_MIN + 1,
-                                      INT32_MAX, INT32_MIN};
-    const int64_t most = (int64_t)1 << bits;
-
-    switch (fuzz_pick(f, 24)) {
-    case 0:
-        return extreme[fuzz_pick(f, 8)];
-    case 1:
-        return (int64_t)((uint64_t)1 << fuzz_pick(f, 64)) - fuzz_pick(f, 3);
-    case 2:
-        return -(int64_t)((uint64_t)1 << fuzz_pick(f, 63)) + fuzz_pick(f, 3);
-    default:
-        return test_random_range(&f->r, -most, most) >> fuzz_pick(f, bits);
-    }
+    return chance_number(&f->chance, bits);
 }
 
 void fuzz_vector(struct fuzz *f, int64_t v[3], int bits)
@@ -38,14 +25,14 @@ void fuzz_vector(struct fuzz *f, int64_t v[3], int bits)
 
     for (int k = 0; k < 3; k++) {
         v[k] = hostile ? fuzz_number(f, bits)
-                       : test_random_range(&f->r, -((int64_t)1 << bits), (int64_t)1 << bits);
+                       : chance_range(&f->chance, -((int64_t)1 << bits), (int64_t)1 << bits);
     }
 }
 
 static int32_t number32(struct fuzz *f, int64_t low, int64_t high)
 {
     return fuzz_pick(f, 12) == 0 ? (int32_t)(uint32_t)fuzz_number(f, 30)
-                                 : (int32_t)test_random_range(&f->r, low, high);
+                                 : (int32_t)chance_range(&f->chance, low, high);
 }
 
 void fuzz_rotation(struct fuzz *f, carom_quat_q30 *q)
@@ -53,14 +40,16 @@ void fuzz_rotation(struct fuzz *f, carom_quat_q30 *q)
     double v[4], length = 0;
 
     for (int k = 0; k < 4; k++) {
-        v[k] = (double)test_random_range(&f->r, -1000, 1000);
+        v[k] = (double)chance_range(&f->chance, -1000, 1000);
         length += v[k] * v[k];
     }
     for (int k = 0; k < 4; k++) {
         q->c[k] = length > 0 ? (int32_t)(v[k] / real_sqrt(length) * CAROM_ONE_Q30) : 0;
     }
     if (fuzz_pick(f, 12) == 0) {
-        q->c[fuzz_pick(f, 4)] = (int32_t)(uint32_t)fuzz_number(f, 30);
+        const int k = fuzz_pick(f, 4);
+
+        q->c[k] = (int32_t)(uint32_t)fuzz_number(f, 30);
     }
 }
 
@@ -93,9 +82,9 @@ static uint8_t kind(struct fuzz *f, int count)
 static void set_filter(struct fuzz *f, struct carom_filter *filter)
 {
     if (fuzz_pick(f, 3) == 0) {
-        *filter =
-            (struct carom_filter){(uint16_t)fuzz_pick(f, 65536), (uint16_t)fuzz_pick(f, 65536),
-                                  (int16_t)(fuzz_pick(f, 5) - 2)};
+        filter->category = (uint16_t)fuzz_pick(f, 65536);
+        filter->mask = (uint16_t)fuzz_pick(f, 65536);
+        filter->group = (int16_t)(fuzz_pick(f, 5) - 2);
     }
 }
 
@@ -145,6 +134,7 @@ void fuzz_joint_def(struct fuzz *f, struct carom_joint_def *def)
 {
     struct carom_body_state state;
     int64_t axis[3] = {0, 0, 0};
+    int along;
 
     memset(def, 0, sizeof *def);
     def->kind = kind(f, 5);
@@ -158,7 +148,8 @@ void fuzz_joint_def(struct fuzz *f, struct carom_joint_def *def)
             def->anchor.c[k] = state.position.c[k] + (def->anchor.c[k] >> 4);
         }
     }
-    axis[fuzz_pick(f, 3)] = fuzz_pick(f, 2) ? CAROM_ONE_Q30 : -CAROM_ONE_Q30;
+    along = fuzz_pick(f, 3);
+    axis[along] = fuzz_pick(f, 2) ? CAROM_ONE_Q30 : -CAROM_ONE_Q30;
     for (int k = 0; k < 3; k++) {
         def->axis.c[k] =
             fuzz_pick(f, 30) ? (int32_t)axis[k] : (int32_t)(uint32_t)fuzz_number(f, 30);
@@ -180,6 +171,7 @@ static bool contact(void *user, struct carom_touch *touch)
     return (touch->a + touch->b) % 5 != 0;
 }
 
+/* The surface that moves is made anew, the solids once. */
 static void make_meshes(struct fuzz *f)
 {
     static const uint16_t sides[2][3] = {{0, 1, 2}, {1, 3, 2}};
@@ -187,59 +179,109 @@ static void make_meshes(struct fuzz *f)
                                                  &lab_sheet};
     const struct carom_mesh_raw sheet = {
         (const int16_t(*)[3])f->vertices, sides, 4, 2, 8, CAROM_SURFACE};
+    const size_t room = CAROM_SURFACE_BYTES(4, 2);
 
-    for (int i = 0; i < FUZZ_MESHES; i++) {
-        const struct carom_mesh_raw *raw = i < FUZZ_MESHES - 1 ? raws[i] : &sheet;
-        size_t bytes = CAROM_SURFACE_BYTES(raw->vertex_count, raw->face_count);
+    for (int i = 0; i < FUZZ_MESHES - 1 && !f->mesh_block[i]; i++) {
+        size_t bytes = CAROM_MESH_BYTES(raws[i]->vertex_count, raws[i]->face_count);
 
-        if (!f->mesh_block[i]) {
-            f->mesh_block[i] = lab_need(bytes);
-        }
-        lab_expect(i < FUZZ_MESHES - 1
-                       ? carom_mesh_build(&f->meshes[i], raw, f->mesh_block[i], bytes)
-                       : carom_surface_build(&f->meshes[i], raw, f->mesh_block[i], bytes),
-                   "mesh");
+        f->mesh_block[i] = lab_need(bytes);
+        lab_expect(carom_mesh_build(&f->meshes[i], raws[i], f->mesh_block[i], bytes), "mesh");
+    }
+    if (!f->block) {
+        f->mesh_block[FUZZ_MESHES - 1] = lab_need(room);
+        f->block = lab_need(CAROM_WORLD_BYTES(FUZZ_CAPS));
+        f->workspace = lab_need(FUZZ_WORKSPACE);
+        f->pixels = (uint32_t *)lab_need(FUZZ_PIXELS * FUZZ_PIXELS * sizeof *f->pixels);
+        f->others = (uint32_t *)lab_need(FUZZ_PIXELS * FUZZ_PIXELS * sizeof *f->others);
+    }
+    lab_expect(carom_surface_build(&f->meshes[FUZZ_MESHES - 1], &sheet,
+                                   f->mesh_block[FUZZ_MESHES - 1], room),
+               "surface");
+}
+
+static void make_materials(struct fuzz *f)
+{
+    for (int i = 0; i < 4; i++) {
+        f->materials[i] =
+            (struct carom_material){CAROM_ONE_Q30 / 4 * i, (uint32_t)i << 15, 1 << 10, {{0}}};
+    }
+    for (int i = 0; i < FUZZ_VERTICES; i++) {
+        f->of_face[i] = (uint8_t)(i % 7 % 4);
     }
 }
 
-void fuzz_begin(struct fuzz *f, uint64_t seed)
+static void begin(struct fuzz *f, int bodies)
 {
     struct carom_config config = {
         CAROM_CAPS(FUZZ_CAPS), {{0, 0, -((int64_t)1 << 31)}}, .sleep = true};
     struct carom_body_def def;
-    const size_t bytes = CAROM_WORLD_BYTES(FUZZ_CAPS);
 
-    f->r.state = seed * 0x9e3779b97f4a7c15u;
     for (int v = 0; v < 4; v++) {
         f->vertices[v][0] = (int16_t)(v % 2 ? 4000 : -4000);
         f->vertices[v][1] = (int16_t)(v / 2 ? 4000 : -4000);
         f->vertices[v][2] = (int16_t)fuzz_pick(f, 200);
     }
     make_meshes(f);
-    for (int i = 0; i < 4; i++) {
-        f->materials[i] =
-            (struct carom_material){CAROM_ONE_Q30 / 4 * i, (uint32_t)i << 15, 1 << 10, {{0}}};
-    }
-    for (int i = 0; i < FUZZ_VERTICES; i++) {
-        f->of_face[i] = (uint8_t)fuzz_pick(f, 4);
-    }
+    make_materials(f);
     config.contact = fuzz_pick(f, 2) ? contact : NULL;
     config.sweep_cap = (uint8_t)(fuzz_pick(f, 3) == 0 ? fuzz_pick(f, 256) : 0);
     config.substep_cap = (uint8_t)(fuzz_pick(f, 3) == 0 ? fuzz_pick(f, 256) : 0);
-    if (!f->block) {
-        f->block = lab_need(bytes);
-        f->workspace = lab_need(CAROM_DRAW_BYTES(FUZZ_VERTICES, FUZZ_VERTICES));
-    }
-    lab_expect(carom_world_init(f->block, bytes, &config, &f->world), "world");
+    lab_expect(carom_world_init(f->block, CAROM_WORLD_BYTES(FUZZ_CAPS), &config, &f->world),
+               "world");
     memset(&def, 0, sizeof def);
     def.mesh = &f->meshes[FUZZ_MESHES - 1];
     def.stationary = true;
     def.position.c[2] = -3 * ((int64_t)1 << 32);
     lab_expect(carom_body_add(f->world, &def), "surface");
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < bodies; i++) {
         fuzz_body_def(f, &def);
         (void)carom_body_add(f->world, &def);
     }
+}
+
+void fuzz_begin(struct fuzz *f, uint64_t seed)
+{
+    f->chance = (struct chance){.r.state = seed * 0x9e3779b97f4a7c15u};
+    begin(f, 6);
+}
+
+void fuzz_begin_empty(struct fuzz *f, uint64_t seed)
+{
+    f->chance = (struct chance){.r.state = seed * 0x9e3779b97f4a7c15u};
+    begin(f, 0);
+}
+
+void fuzz_begin_bytes(struct fuzz *f, const uint8_t *bytes, size_t count)
+{
+    f->chance = (struct chance){.bytes = bytes, .left = count};
+    begin(f, fuzz_pick(f, 4));
+}
+
+const char *fuzz_try(struct fuzz *f, int (*call)(struct fuzz *f), int *result)
+{
+    const uint64_t before = carom_world_hash(f->world);
+
+    *result = call(f);
+    return *result >= 0                           ? NULL
+           : *result < CAROM_ERR_JOINTS_FULL      ? "no error of carom.h"
+           : carom_world_hash(f->world) != before ? "an error that changed the world"
+                                                  : NULL;
+}
+
+/* A step may only lack room, or find a body too fast beside too large a mesh. */
+const char *fuzz_try_step(struct carom_world *world, int *result)
+{
+    const uint64_t before = carom_world_hash(world);
+
+    *result = carom_world_step(world);
+    if (*result >= 0) {
+        return NULL;
+    }
+    if (*result != CAROM_ERR_PAIRS_FULL && *result != CAROM_ERR_CONTACTS_FULL &&
+        *result != CAROM_ERR_FACES_FULL && *result != CAROM_ERR_RANGE) {
+        return "no error of a step";
+    }
+    return carom_world_hash(world) == before ? NULL : "a step that failed changed the world";
 }
 
 void fuzz_end(struct fuzz *f)
@@ -249,4 +291,6 @@ void fuzz_end(struct fuzz *f)
     }
     free(f->block);
     free(f->workspace);
+    free(f->pixels);
+    free(f->others);
 }

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz - random calls of a small world; half of their arguments are hostile. See host_fuzz.c. */
+/*
+ * fuzz - calls of a small world, by random numbers or by a fuzzer's bytes; half of their arguments are hostile. See host_fuzz.c
+ * and target.h.
+ */
 #ifndef CAROM_TESTS_FUZZ_H
 #define CAROM_TESTS_FUZZ_H
 
@@ -7,36 +10,53 @@
 #include "carom_debug.h"
 #include "carom_joint.h"
 #include "carom_query.h"
+#include "chance.h"
 #include "lab.h"
-#include "test.h"
 
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras, hits */
 #define FUZZ_CAPS     14, 60, 300, 2000, 256, 500, 8, 8, 4
 #define FUZZ_MESHES   6
 #define FUZZ_VERTICES 1000 /* most vertices of a mesh, and most faces */
 #define FUZZ_PIXELS   24
+#define FUZZ_LINES    2
+#define FUZZ_BODIES   14
+#define FUZZ_WORKSPACE                                                                             \
+    (CAROM_DRAW_BYTES(FUZZ_VERTICES, FUZZ_VERTICES) +                                              \
+     CAROM_SMOOTH_BYTES(FUZZ_VERTICES, FUZZ_VERTICES))
+/* Result of a call whose promise was broken: no error of carom.h. */
+#define FUZZ_DIFFERS (-1000)
 
 struct fuzz {
-    struct test_random r;
+    struct chance chance;
     struct carom_world *world;
     struct carom_mesh meshes[FUZZ_MESHES]; /* the last one is a surface that moves */
     struct carom_material materials[4];
     uint8_t of_face[FUZZ_VERTICES];
-    uint32_t pixels[FUZZ_PIXELS * FUZZ_PIXELS];
+    uint32_t *pixels, *others;
     int16_t vertices[4][3]; /* vertices of the surface */
-    int last;               /* the last call (fuzz_calls.c) */
+    struct carom_paint_line lines[FUZZ_LINES];
+    struct carom_body_paint body_paint[2];
+    struct carom_drawn_body drawn[FUZZ_BODIES];
+    int last; /* the last call (fuzz_calls.c) */
     void *block, *mesh_block[FUZZ_MESHES], *workspace;
 };
 
-/* Begin a world with some bodies in it. */
+/* Begin a world with some bodies in it, by random numbers. */
 void fuzz_begin(struct fuzz *f, uint64_t seed);
+/* The same with nothing but the surface in it. */
+void fuzz_begin_empty(struct fuzz *f, uint64_t seed);
+/* The same by bytes, with few bodies, so that it is cheap. */
+void fuzz_begin_bytes(struct fuzz *f, const uint8_t *bytes, size_t count);
 void fuzz_end(struct fuzz *f);
-/* Make a random call; returns its result. */
+/* Make a call; returns its result. */
 int fuzz_call(struct fuzz *f);
+/* A call, or a step, and the fault in it: an error that changed the world, or no error of carom.h. NULL: there is none. */
+const char *fuzz_try(struct fuzz *f, int (*call)(struct fuzz *f), int *result);
+const char *fuzz_try_step(struct carom_world *world, int *result);
 
-/* A random number of 0 .. count - 1. */
+/* A number of 0 .. count - 1. */
 int fuzz_pick(struct fuzz *f, int count);
-/* A random number: now and then an extreme one, otherwise within +- 2^bits. */
+/* A number: now and then an extreme one, otherwise within +- 2^bits. */
 int64_t fuzz_number(struct fuzz *f, int bits);
 /* A number or id of a body, which may not exist. */
 int fuzz_body(struct fuzz *f);

@@ -58,9 +58,10 @@ static int move_to(struct fuzz *f)
 
 static int set_filter(struct fuzz *f)
 {
-    struct carom_filter filter = {(uint16_t)fuzz_pick(f, 8), (uint16_t)fuzz_pick(f, 65536),
-                                  (int16_t)(fuzz_pick(f, 4) - 2)};
+    struct carom_filter filter = {.category = (uint16_t)fuzz_pick(f, 8)};
 
+    filter.mask = (uint16_t)fuzz_pick(f, 65536);
+    filter.group = (int16_t)(fuzz_pick(f, 4) - 2);
     return carom_body_set_filter(f->world, fuzz_body(f), &filter);
 }
 
@@ -113,8 +114,8 @@ static int move_surface(struct fuzz *f)
 
 static int act_on(struct fuzz *f)
 {
-    int32_t small = (int32_t)(uint32_t)fuzz_number(f, 30),
-            other = (int32_t)(uint32_t)fuzz_number(f, 30);
+    const int32_t small = (int32_t)(uint32_t)fuzz_number(f, 30) >> (fuzz_pick(f, 2) ? 0 : 12),
+                  other = (int32_t)(uint32_t)fuzz_number(f, 30);
     carom_v3_q40 v;
     carom_v3_q32 point;
 
@@ -126,7 +127,7 @@ static int act_on(struct fuzz *f)
     case 1:
         return carom_body_set_torque(f->world, fuzz_body(f), &v);
     case 2:
-        return carom_body_set_gravity_scale(f->world, fuzz_body(f), small >> fuzz_pick(f, 16));
+        return carom_body_set_gravity_scale(f->world, fuzz_body(f), small);
     default:
         return carom_body_set_damping(f->world, fuzz_body(f), small, other);
     }
@@ -134,22 +135,20 @@ static int act_on(struct fuzz *f)
 
 static int make_of(struct fuzz *f)
 {
-    struct carom_material m = {(int32_t)(uint32_t)fuzz_number(f, 29),
-                               (uint32_t)fuzz_number(f, 17),
-                               (uint32_t)fuzz_number(f, 15),
-                               {{0}}};
-    int body = fuzz_body(f);
+    const int body = fuzz_body(f), pick = fuzz_pick(f, 45);
+    struct carom_material m = {.restitution_q30 = (int32_t)(uint32_t)fuzz_number(f, 29)};
 
+    m.friction_q16 = (uint32_t)fuzz_number(f, 17);
+    m.rolling_q16 = (uint32_t)fuzz_number(f, 15);
     switch (fuzz_pick(f, 5)) {
     case 0:
         return carom_body_set_mass(f->world, body, (uint32_t)fuzz_number(f, 24));
     case 1:
-        return carom_body_set_face_materials(f->world, body, fuzz_pick(f, 4) ? f->materials : NULL,
-                                             (uint32_t)(fuzz_pick(f, 9) ? 4 : fuzz_pick(f, 2)),
-                                             f->of_face);
+        return carom_body_set_face_materials(f->world, body, pick % 5 ? f->materials : NULL,
+                                             (uint32_t)(pick / 5 ? 4 : pick % 2), f->of_face);
     case 2:
-        return carom_world_set_combine(f->world, (enum carom_combine)fuzz_pick(f, 5),
-                                       (enum carom_combine)fuzz_pick(f, 5));
+        return carom_world_set_combine(f->world, (enum carom_combine)(pick % 5),
+                                       (enum carom_combine)(pick / 5 % 5));
     case 3:
         fuzz_vector(f, m.surface_velocity.c, 38);
         return carom_body_set_material(f->world, body, &m);

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+/* Changes that reach what a format checks: whole numbers as well as bytes and bits, and pieces from elsewhere. */
+#include "edits.h"
+
+#include <string.h>
+
+#include "num/fnv.h"
+
+static uint64_t number_at(const uint8_t *bytes, int n)
+{
+    uint64_t v = 0;
+
+    while (n-- > 0) {
+        v = v << 8 | bytes[n];
+    }
+    return v;
+}
+
+static void put_number(uint8_t *bytes, uint64_t v, int n)
+{
+    for (int i = 0; i < n; i++) {
+        bytes[i] = (uint8_t)(v >> 8 * i);
+    }
+}
+
+/* Another number: any, one near to it, one of other bits, a multiple. */
+static uint64_t other_number(struct chance *c, uint64_t v, int bytes)
+{
+    const int bits = 8 * bytes;
+    const int64_t given = (int64_t)(v << (64 - bits)) >> (64 - bits);
+
+    switch (chance_pick(c, 5)) {
+    case 0:
+        return (uint64_t)chance_number(c, bits - 2);
+    case 1:
+        return v + (uint64_t)chance_range(c, -3, 3);
+    case 2:
+        return v ^ (uint64_t)1 << chance_pick(c, bits);
+    case 3:
+        return v + (uint64_t)(given / 8) * (uint64_t)chance_range(c, -16, 64);
+    default:
+        return 0 - v;
+    }
+}
+
+/* A piece from elsewhere. */
+static void copy_piece(struct chance *c, uint8_t *bytes, size_t size)
+{
+    const size_t to = (size_t)chance_range(c, 0, (int64_t)size - 1);
+    const size_t from = (size_t)chance_range(c, 0, (int64_t)size - 1);
+    const size_t room = size - (to > from ? to : from), length = (size_t)chance_pick(c, 64) + 1;
+
+    memmove(bytes + to, bytes + from, length < room ? length : room);
+}
+
+static void edit(struct chance *c, uint8_t *bytes, size_t size)
+{
+    static const int lengths[] = {1, 2, 4, 8, 8};
+    const int n = lengths[chance_pick(c, 5)];
+    const size_t at = (size_t)chance_range(c, 0, (int64_t)size - 1);
+
+    if (at + (size_t)n > size) {
+        bytes[at] = (uint8_t)chance_pick(c, 256);
+    } else {
+        put_number(bytes + at, other_number(c, number_at(bytes + at, n), n), n);
+    }
+}
+
+void edit_bytes(struct chance *c, uint8_t *bytes, size_t size)
+{
+    for (int n = chance_pick(c, 4); n >= 0 && size > 0; n--) {
+        if (chance_pick(c, 8) == 0) {
+            copy_piece(c, bytes, size);
+        } else {
+            edit(c, bytes, size);
+        }
+    }
+}
+
+void edit_mend64(uint8_t *bytes, size_t size)
+{
+    uint64_t fnv = FNV_START;
+
+    for (size_t i = 0; i + 8 < size; i++) {
+        fnv = fnv_add(fnv, bytes[i]);
+    }
+    if (size >= 8) {
+        put_number(bytes + size - 8, fnv, 8);
+    }
+}
+
+void edit_mend32(uint8_t *bytes, size_t size)
+{
+    uint32_t sum = FNV32_START;
+
+    for (size_t i = 0; i + 4 < size; i++) {
+        sum = fnv32_add(sum, bytes[i]);
+    }
+    if (size >= 4) {
+        put_number(bytes + size - 4, sum, 4);
+    }
+}

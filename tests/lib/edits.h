@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* edits - changes to the bytes of a file, as chance wants, and its check sum made right again. */
+#ifndef CAROM_TESTS_EDITS_H
+#define CAROM_TESTS_EDITS_H
+
+#include "chance.h"
+
+/* Change up to four places before `size`. Lengths stay. */
+void edit_bytes(struct chance *c, uint8_t *bytes, size_t size);
+/* Write the FNV-1a of all bytes before to the end: of 64 bits for a snapshot and a blob, of 32 for a recording. */
+void edit_mend64(uint8_t *bytes, size_t size);
+void edit_mend32(uint8_t *bytes, size_t size);
+
+#endif

@@ -1,0 +1,79 @@
+#!/usr/bin/python3 -B
+# SPDX-License-Identifier: MIT
+"""Run libFuzzer over every target of tests/lib/target.h, and count the runs.
+
+    fuzz.py PROGRAM [--seconds 60] [--runs N] [--targets calls,draw] [--record]
+
+Targets take turns of equal time, or get N runs each. Inputs that reach new code are kept in build/fuzz/TARGET, and the next run
+goes on from them. An input that fails goes to out/fuzz; a line of tests/lib/inputs.c makes a test of it.
+"""
+import argparse
+import os
+import random
+import re
+import subprocess
+import sys
+
+import evidence
+
+TARGETS = ["calls", "ask", "draw", "snapshot", "replay", "mesh"]
+LENGTH = 600  # bytes of an input, at most
+TIMEOUT = 20  # seconds of one input, at most
+SEEDS = 32    # inputs of chance for a target that has none
+
+
+def corpus(target):
+    """The folder of a target's inputs."""
+    path = os.path.join("build", "fuzz", target)
+    os.makedirs(path, exist_ok=True)
+    if not os.listdir(path):
+        chance = random.Random(target)
+        for i in range(SEEDS):
+            with open(os.path.join(path, "seed%d" % i), "wb") as file:
+                file.write(chance.randbytes(chance.randrange(20, LENGTH)))
+    return path
+
+
+def run(program, target, limit):
+    """Run one target. Returns how many runs it made, in how many seconds, and how many inputs failed."""
+    # entropic schedules cost more time than the calls do
+    command = [program, target, corpus(target), "-entropic=0", "-max_len=%d" % LENGTH, "-timeout=%d" % TIMEOUT,
+               "-artifact_prefix=out/fuzz/%s-" % target, "-print_final_stats=1", limit]
+    before = os.times()
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+    after = os.times()
+    counted = re.search(r"number_of_executed_units: (\d+)", done.stdout)
+    runs = int(counted.group(1)) if counted else 0
+    processor = after.children_user + after.children_system - before.children_user - before.children_system
+    if done.returncode != 0 or not counted:
+        print(done.stdout[-6000:])
+    return runs, processor, int(done.returncode != 0 or not counted)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--seconds", type=int, default=60)
+    parser.add_argument("--runs", type=int)
+    parser.add_argument("--targets", default=",".join(TARGETS))
+    parser.add_argument("--record", action="store_true", help="add the runs to tests/evidence.csv")
+    options = parser.parse_args()
+    targets, failed = options.targets.split(","), 0
+    figures = {"%s, runs" % target: (0, "sum") for target in TARGETS}
+    os.makedirs("out/fuzz", exist_ok=True)
+    for target in targets:
+        limit = "-runs=%d" % options.runs if options.runs else "-max_total_time=%d" % max(1, options.seconds // len(targets))
+        runs, seconds, bad = run(options.program, target, limit)
+        failed += bad
+        figures["%s, runs" % target] = (runs, "sum")
+        print("%s %-9s %9d runs, %6.0f a second of processor time" % ("not ok" if bad else "ok", target, runs, runs / max(seconds, 1)),
+              flush=True)
+    if options.record:
+        every = sum(runs for runs, _ in figures.values())
+        evidence.record("fuzz", {**figures, "all targets, runs": (every, "sum"), "inputs that fail": (failed, "less")})
+    held = evidence.ratchet("fuzz", {"inputs that fail": failed})
+    sys.exit(0 if held and failed == 0 else 1)
+
+
+if __name__ == "__main__":
+    main()
