@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How the toggles change the look of a scene: interfering faces, shadows, leaves. */
+/* The effect of the toggles on the look of a scene: interfering faces, shadows, leaves. */
 #include <string.h>
 
 #include "view_parts.h"

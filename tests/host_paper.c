@@ -55,8 +55,8 @@ static void corners(double out[3][3], const struct oracle_mesh *mesh,
 }
 
 /*
- * How deep faces cross. 0 when one of them is steeper than 1 in 5: seen from above, such a face may
- * be too narrow to cover the centre of a pixel.
+ * The depth by which faces cross. 0 when one of them is steeper than 1 in 5: seen from above, such
+ * a face may be too narrow to cover the centre of a pixel.
  */
 static double depth(double p[3][3], double q[3][3])
 {

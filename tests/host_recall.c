@@ -118,7 +118,9 @@ static void meet(const double start[3], const double way[3], double deeper)
     go(start, way, touching + deeper);
 }
 
-/* How far to move past the first touch, as a part of the line: grazing, from 1e-5 on, or deep. */
+/*
+ * The distance to move past the first touch, as a part of the line: grazing, from 1e-5 on, or deep.
+ */
 static double depth(int pose)
 {
     return pose % 2 ? lab_random(&seed, 0.02, 0.25) : pow(10, lab_random(&seed, -5, -2.5));

@@ -230,9 +230,9 @@ static void seen_from_centre(const struct lab *lab, const carom_quat_q30 *turn, 
 }
 
 /*
- * How far the foot of the centre of mass is outside of the hull of the vertices within 0.7 skin of
- * the lowest one: only rolling friction can hold this. The hull is taken as its farthest vertex in
- * each of 720 directions.
+ * The distance of the foot of the centre of mass outside of the hull of the vertices within 0.7
+ * skin of the lowest one: only rolling friction can hold this. The hull is taken as its farthest
+ * vertex in each of 720 directions.
  */
 static double overhang(const struct lab *lab)
 {

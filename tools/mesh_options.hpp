@@ -14,7 +14,7 @@
 namespace mend
 {
 
-/* How a grid becomes a surface. */
+/* The conversion of a grid to a surface. */
 struct Heights {
     double cell = 1; /* units from one sample to the next */
     double height = 0, offset = 0;

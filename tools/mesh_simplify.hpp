@@ -68,8 +68,8 @@ inline std::vector<uint32_t> sheets_of(const Mesh &mesh, const EdgeUses &uses)
 }
 
 /*
- * The library may pinch off a small bubble, which then hangs at one edge with four faces. Of the
- * sheets that meet at an edge with more than two faces, only the largest stays.
+ * The library may pinch off a small bubble, which then hangs at one edge with four faces. Where
+ * more than two faces share an edge, only the largest of their sheets stays.
  */
 inline void drop_bubbles(Mesh &mesh)
 {

@@ -220,8 +220,8 @@ struct body_def {
 };
 
 /*
- * How a body takes the frame's gravity: along its path; or, once it lies on others, all at once, and
- * then its path is straight. BODY_ENTERS: since the last rest_enter_contact.
+ * The way in which a body takes the frame's gravity: along its path; or, once it lies on others,
+ * all at once, and then its path is straight. BODY_ENTERS: since the last rest_enter_contact.
  */
 enum body_contact { BODY_FLIES, BODY_ENTERS, BODY_LIES };
 

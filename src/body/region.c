@@ -157,7 +157,7 @@ void body_path_sweep(const struct body *b, struct body_sweep *sweep)
     }
 }
 
-/* How far a centre at x_q32 is from the region's path at a time. */
+/* The distance of a centre at x_q32 from the region's path at a time. */
 static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
                        int64_t elapsed_q30)
 {

@@ -121,8 +121,8 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 }
 
 /*
- * How much nearer the sought surface is, as a value of P: at most half of the event gap, however
- * small the edges' angle.
+ * The amount by which the sought surface is nearer than the true one, as a value of P: at most half
+ * of the event gap, however small the edges' angle.
  */
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
                          const struct boyse_places *start)

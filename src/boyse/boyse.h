@@ -71,7 +71,7 @@ struct boyse_pair {
     struct boyse_view view[2]; /* [0]: a seen from b, [1]: b seen from a */
 };
 
-/* How two features face each other. */
+/* The exact test of two features at a time: whether they face each other. */
 struct boyse_touch {
     int32_t gap_q22;     /* distance along the normal; negative: they overlap */
     carom_v3_q30 normal; /* N, unit, from b into a; set only if valid */

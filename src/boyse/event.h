@@ -7,9 +7,9 @@
 #include "place.h"
 
 /*
- * How far features are open: P, with its sign chosen so that it is positive while they are open, in
- * the curve's units. `wanted` is the event gap in these units: constant, or recomputed at each time
- * if by_time.
+ * The opening of two features: P, with its sign chosen so that it is positive while they are open,
+ * in the curve's units. `wanted` is the event gap in these units: constant, or recomputed at each
+ * time if by_time.
  */
 struct opening {
     const struct boyse_pair *pair;

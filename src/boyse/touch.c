@@ -283,9 +283,9 @@ static bool meet_on_edges(const struct boyse_places *p, const int32_t n_q30[3], 
 }
 
 /*
- * How N = w / |w| lies to the faces of both edges, as cosines. out: how much the faces look along
- * N, b's outwards and a's against it. N leaves b's edge outwards and enters a's, into no face on
- * either side, if most <= 0; -N does if least >= 0.
+ * The direction N = w / |w| relative to the faces of both edges, as cosines. out: the largest
+ * component of the faces along N, b's outwards and a's against it. N leaves b's edge outwards and
+ * enters a's, into no face on either side, if most <= 0; -N does if least >= 0.
  */
 struct cones {
     int32_t out, most, least;

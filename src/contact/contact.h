@@ -226,7 +226,7 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
 
 /*
  * If both edges of a candidate border faces that lie on each other in the placed poses, and b's
- * face has nearly this normal, make it b's face's normal. Else the normal stays.
+ * face has nearly this normal, make it b's face's normal. Otherwise the normal stays.
  */
 void contact_flatten(const struct boyse_pair *pair, const struct candidate *c,
                      carom_v3_q30 *normal);
@@ -304,7 +304,7 @@ static inline const struct contact_mixed *contact_mixed(const struct contact_lis
 
 /*
  * The face of a contact's side that looks most along N, or for a against it: the face itself, a
- * face at the edge, or a face at the vertex. Of two equal ones the lower number.
+ * face at the edge, or a face at the vertex. If two are equal, the one with the lower number.
  */
 uint32_t contact_face(const struct body *b, const struct candidate *key, int side,
                       const carom_v3_q30 *normal);

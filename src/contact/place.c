@@ -58,9 +58,9 @@ static int64_t cross_part(const carom_v3_q40 *d, const int32_t f[3], int i, int 
 }
 
 /*
- * How far along a's edge e it is nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x f, d from
- * b's start to a's. Bounds: |d| < 2^10 units, so d x f is below 2^51; products fit 128 bits. The
- * middle of a's edge if the edges are parallel but for rounding.
+ * The distance along a's edge e to the point nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x
+ * f, d from b's start to a's. Bounds: |d| < 2^10 units, so d x f is below 2^51; products fit 128
+ * bits. The middle of a's edge if the edges are parallel up to rounding.
  */
 static int64_t nearest_q40(const carom_v3_q40 *d, const int64_t w_q60[3], const int32_t f[3],
                            int32_t length_q22)

@@ -3,8 +3,8 @@
 #include "draw.h"
 
 /*
- * How far a point is inside a plane, up to a factor: 0 the near plane, then left, right, top and
- * bottom of the guard band. |result| <= 2^30.
+ * The distance of a point inside a plane, up to a factor: 0 the near plane, then left, right, top
+ * and bottom of the guard band. |result| <= 2^30.
  */
 static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], int plane)
 {

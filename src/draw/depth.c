@@ -51,7 +51,7 @@ static struct slope slope_at(const struct draw_sweep *s, const struct draw_face 
     return slope;
 }
 
-/* How far a is in front of b at pixel x, and its growth a pixel. */
+/* The lead of a before b in depth at pixel x, and its growth a pixel. */
 static struct slope ahead_at(const struct draw_sweep *s, struct draw_span *a, struct draw_span *b,
                              int32_t x)
 {

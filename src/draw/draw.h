@@ -410,7 +410,8 @@ struct draw_list;
 struct carom_shadows {
     /* Call before the bodies of a picture are placed: gives all of them one scale. */
     void (*init)(const struct draw_source *source, struct draw_view *view);
-    /* How far behind a body's centre its shadow may fall, q16; 0 for no shadow. */
+    /* The largest distance behind a body's centre at which its shadow may fall, q16; 0 for no
+     * shadow. */
     int64_t (*reach)(const struct draw_source *source, const struct draw_view *view,
                      uint32_t number, const struct carom_body_look *look);
     /*

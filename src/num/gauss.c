@@ -21,7 +21,7 @@ static uint32_t magnitude(int32_t v)
     return (uint32_t)(v ^ (v >> 31));
 }
 
-/* How far v > 0 can be shifted up until it reaches `full`, a power of two. */
+/* The number of bits by which v > 0 can be shifted up until it reaches `full`, a power of two. */
 static int headroom(uint32_t v, uint32_t full)
 {
     int z = 0;

@@ -72,7 +72,7 @@
 #define BOYSE_ROOT_LEVEL_Q22 12
 /* A pair that touches may approach by this part of that level. Chosen; in boyse/boyse.c. */
 #define BOYSE_TOUCHING_DIVISOR 64
-/* How often the level is divided by 4 for edges that become parallel. Chosen; in boyse/boyse.c. */
+/* Number of divisions of the level by 4 for edges that become parallel. Chosen; in boyse/boyse.c. */
 #define BOYSE_LEVELS 6
 /* First step back from a root to its event. Chosen; it doubles; in boyse/boyse.c. */
 #define BOYSE_BACK_Q30 (1 << 12)
@@ -120,13 +120,13 @@
 /* Contacts, or fewer, that are swept without momentum. Chosen; in solve/sweep.c. */
 #define REST_UNHURRIED 3
 /*
- * How often sweeps may outgrow their unit; with momentum and warm impulses. Chosen; in
+ * Number of times that sweeps may outgrow their unit; with momentum and warm impulses. Chosen; in
  * solve/sweep.c.
  */
 #define REST_OUTGREW_MAX     6
 #define REST_OUTGREW_HURRIED 2
 /*
- * How often an exact solve sums up its impulses anew, as each push rounds. Chosen; in
+ * Number of times that an exact solve sums up its impulses anew, because each push rounds. Chosen; in
  * solve/sweep.c.
  */
 #define REST_EXACT_SUMS 2
@@ -216,7 +216,7 @@
 #define STEP_TURN_PARTS 4
 /* The same in a part whose candidates are gathered to be kept; it orders hits, so chosen. */
 #define STEP_KEPT_TURN_PARTS 16
-/* How often time is halved to find when features face each other. Chosen. */
+/* Number of halvings of time to find when features face each other. Chosen. */
 #define STEP_HALVINGS 20
 
 /*
@@ -225,7 +225,7 @@
  */
 #define STEP_ROOT_TRIES 8
 /*
- * How often slices become shorter by a factor of 4 if the same pair hits at the same time. Chosen.
+ * Number of times that slices become shorter by a factor of 4 if the same pair hits at the same time. Chosen.
  */
 #define STEP_SHORTER_MAX 5
 /* Repeats after which the island then moves as one body. Chosen. */
@@ -328,7 +328,7 @@
 #define WORLD_SHALLOW_SKINS 2
 /* Skins: the first step of a push out; steps double from there. Chosen; in world/apart.c. */
 #define WORLD_FIRST_SKINS 4
-/* How often the way of a push out is halved then. Chosen; in world/apart.c. */
+/* Number of halvings of the way of a push out after that. Chosen; in world/apart.c. */
 #define WORLD_HALVINGS 10
 /*
  * Units that a body is pushed or lifted at most. Derived: a path is shorter than BODY_SPEED_LIMIT,

@@ -118,7 +118,8 @@ static inline int32_t turn_by(const struct contact_lever *lever, int k, const in
 }
 
 /*
- * How many bits finer than du are products of turn and an impulse with fine_bits fractional bits.
+ * The number of bits by which products of turn and an impulse with fine_bits fractional bits are
+ * finer than du.
  */
 static inline int rest_turn_shift(const struct body *b, int fine_bits)
 {

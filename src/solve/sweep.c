@@ -114,8 +114,8 @@ static bool stick(const struct contact *c, const int32_t v[3], struct rest_chang
 }
 
 /*
- * How much longer a step along N is if friction at its limit follows it: N.K N over N.K (N + mu t),
- * t the unit vector along v. At most 8, for a contact that nearly wedges.
+ * The factor for a step along N that friction at its limit follows: N.K N over N.K (N + mu t), t
+ * the unit vector along v. At most 8, for a contact that nearly wedges.
  */
 static int32_t following_q15(const struct contact *c, const int64_t v[3])
 {

@@ -161,7 +161,7 @@ void step_close_window(struct step *s, uint32_t number, int32_t from_q30, int32_
  */
 int32_t step_parts(const struct step *s, uint32_t number);
 /*
- * Find the first hit of a pair on the paths of a window: sets v->found and v->hit. Of hit.touch
+ * Find the first hit of a pair on the paths of a window: sets v->found and v->hit. In hit.touch
  * only `valid` is set; it is true if the hit was put off.
  */
 int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v);

@@ -138,9 +138,9 @@ static bool is_free(const struct carom_world *w, uint32_t i)
 /* ------------------------------------------------------------------ regions */
 
 /*
- * How far a body may leave the path of its region: some skins and a part of the way. In flight only
- * a hit changes the path, and after a hit we gather anyway. The same holds for a fast body in
- * contact if its region ends with its path.
+ * The distance by which a body may leave the path of its region: some skins and a part of the way.
+ * In flight only a hit changes the path, and after a hit we gather anyway. The same holds for a
+ * fast body in contact if its region ends with its path.
  */
 static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
 {
@@ -158,9 +158,9 @@ static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
 }
 
 /*
- * How long a region may last, as the swept volume grows with the time. No part of the body goes
- * farther than a part of its radius. It lasts as long as the last region held, or twice that if
- * that held to its end.
+ * The longest time of a region, which is limited because the swept volume grows with the time. No
+ * part of the body goes farther than a part of its radius. The region lasts as long as the last one
+ * held, or twice as long if that one held to its end.
  */
 static int64_t region_time(const struct step *s, const struct body *b, int32_t slice_q30, bool free)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The candidates of a pair: those that are kept, or those gathered for the present paths, for a
- * part of the window or for both regions. How many are gathered changes the cost of a step, never
- * its outcome.
+ * part of the window or for both regions. The number of gathered candidates changes the cost of a
+ * step, never its outcome.
  */
 #include "parts.h"
 

@@ -116,7 +116,9 @@ static bool crosses_any(struct carom_world *w, const struct body *b, uint32_t pl
     return false;
 }
 
-/* How far a body must go along a way to be clear of all others; `most` if it is no less. */
+/*
+ * The distance that a body must go along a way to be clear of all others; `most` if it is no less.
+ */
 static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t place,
                            const struct body_state *state, const carom_v3_q30 *way,
                            int64_t most_q32)

@@ -325,7 +325,7 @@ static inline bool world_may_have_extra(const struct carom_world *w)
 
 /* True if a body is kinematic. */
 bool world_is_kinematic(const struct body *b);
-/* How a body moves; for a body that is led on, as it is led. */
+/* The motion of a body; for a kinematic body, the motion by which it is led. */
 void world_motion(const struct body *b, const struct body_state *s, carom_v3_q40 *velocity,
                   carom_v3_q40 *spin);
 #define WORLD_ROUTE_SPIN_MAX_Q40 3454217652358LL /* pi */

@@ -64,7 +64,7 @@ int duo_vertex_side(int kind);
 double duo_inside(const struct duo_features *f, const struct candidate *c);
 
 /*
- * How far the normal is within the cone tolerance. For edges, `sign` times n is N from b into a;
+ * The margin of the normal within the cone tolerance. For edges, `sign` times n is N from b into a;
  * for a vertex and a face, the face's normal.
  */
 double duo_in_cones(struct duo_features *f, const struct candidate *c, int sign);

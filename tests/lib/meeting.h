@@ -56,8 +56,8 @@ long double meeting_slope(const struct meeting *m, long double t);
 long double meeting_inside(const struct meeting *m, const struct meeting_features *f);
 
 /*
- * How far sign * n is within the normal cones, a cosine: for edges as N from b into a, for a face
- * as the face's normal (sign is 1). Below 0: outside of a cone.
+ * The margin of sign * n within the normal cones, a cosine: for edges as N from b into a, for a
+ * face as the face's normal (sign is 1). Below 0: outside of a cone.
  */
 long double meeting_in_cones(const struct meeting *m, const struct meeting_features *f, int sign);
 

@@ -175,7 +175,7 @@ static bool project(const struct paper_box *box, const int32_t *const corner[3],
 /* ----------------------------------------------------------------- scanning */
 
 /*
- * Of two equal z the later one lies above. b is entered before a, so touching faces count as
+ * If two z are equal, the later one lies above. b is entered before a, so touching faces count as
  * crossing.
  */
 static void enter(uint32_t pixel, uint32_t z, const struct paper_face *f)

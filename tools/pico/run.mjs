@@ -54,7 +54,7 @@ function checkSum(bytes) {
     return crc >>> 0;
 }
 
-// What the boot ROM does with the flash.
+// Do what the boot ROM does with the flash.
 function boot(mcu) {
     const loader = mcu.flash.subarray(0, LOADER);
     if (checkSum(loader) !== mcu.flashView.getUint32(LOADER, true)) {
