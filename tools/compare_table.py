@@ -25,13 +25,13 @@ NOT_SHOWN = ["settling"]
 DOCS_HEAD = """<!-- SPDX-License-Identifier: MIT -->
 # Carom beside others
 
-`make compare` measures this and writes this file, the table in README.md and docs/compare.csv. A query
-asks for all contacts of the moving mesh with the one that stands still, their boxes overlapping
-(near) or faces crossing (contact). A step is a whole step of a world: of the scene `head`, or of a
-heap of boxes that fall in layers; steps 1 to 60 are falling, 61 to 120 settling, 121 to 180 resting,
-nobody asleep; asleep is a heap of Carom's whose boxes all sleep. Figures are x86-64 instructions,
-counted by callgrind, the means of a phase and of some heaps; for WebAssembly, in one node, medians of
-milliseconds. Each library has the settings that it comes with.
+`make compare` measures these figures and writes this page, the table in README.md and docs/compare.csv. A
+query asks for all contacts of a moving mesh with a stationary one, when their boxes overlap (near) or their
+faces cross (contact). A step is a whole step of a world: of the scene `head`, or of a heap of boxes that fall
+in layers. Steps 1 to 60 are falling, 61 to 120 settling, 121 to 180 resting, without sleep; asleep is a heap
+of Carom in which all boxes sleep. Figures are x86-64 instructions, counted by callgrind: means of a phase and
+of some heaps. For WebAssembly, in one node process, they are medians of milliseconds. Each library has its
+default settings.
 
 """
 

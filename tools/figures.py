@@ -120,9 +120,8 @@ def figure6(page, said, images):
                  " hiding nothing; faces that interfere are orange on the head and pink on the field")
     page.text("The head in frame %d, where it first meets the field and before the impact is solved: the scene, near by, and"
               % said["first"][0],
-              "from below, where the field, seen from its back, hides nothing. Orange on the head and pink on the field are"
-              " the faces that",
-              "the collision test was given.")
+              "from below, where the field hides nothing because it is seen from its back. The collision test got the faces that are orange",
+              "on the head and pink on the field.")
     page.table(["", "head", "field", "both", "faces that interfere"],
                ["the paper", *["%d" % n for n in POLYGONS["head"]], "%d" % sum(POLYGONS["head"]),
                 "coloured; their number is not given"],
@@ -164,9 +163,9 @@ plot %s
               " it drawn. The paper",
               "gives one figure in words, 0.24 s for %d polygons, which is 3.84 million instructions at 16 million a second;"
               % sum(POLYGONS["head"]),
-              "the curves of its figure are not in its text, and nothing was read off them. It says that \"the display time"
-              " clearly is the largest component\":",
-              "so it is here, in software and without its graphics hardware.")
+              "its text does not have the curves of its figure, and nothing was read off them. It says that \"the display time"
+              " clearly is the largest component\".",
+              "The same holds here, in software and without its graphics hardware.")
 
 
 def figure8(page, figures, pictures):
@@ -217,7 +216,7 @@ def main():
     pictures = {scene: photograph(sys.argv[1], scene) for scene in POLYGONS}
     page = Page()
     page.text("# The paper's figures 6, 7 and 8", "",
-              "`make figures` counts and draws what is here, and writes this page. The paper's machine was an IRIS 4D/25 (MIPS R3000, 16 million"
+              "`make figures` counts, draws and writes this page. The paper's machine was an IRIS 4D/25 (MIPS R3000, 16 million"
               " instructions a",
               "second, graphics hardware); here a Cortex-M3 in QEMU steps and draws by itself, and its instructions are counted"
               " (`make bench`).")

@@ -126,8 +126,8 @@
 #define REST_OUTGREW_MAX     6
 #define REST_OUTGREW_HURRIED 2
 /*
- * Number of times that an exact solve sums up its impulses anew, because each push rounds. Chosen; in
- * solve/sweep.c.
+ * Number of times that an exact solve sums up its impulses anew, because each push rounds. Chosen;
+ * in solve/sweep.c.
  */
 #define REST_EXACT_SUMS 2
 /* Skins a frame above which a body moves. Chosen: far above what sweeps leave; in solve/rest.c. */
@@ -225,7 +225,8 @@
  */
 #define STEP_ROOT_TRIES 8
 /*
- * Number of times that slices become shorter by a factor of 4 if the same pair hits at the same time. Chosen.
+ * Number of times that slices become shorter by a factor of 4 if the same pair hits at the same
+ * time. Chosen.
  */
 #define STEP_SHORTER_MAX 5
 /* Repeats after which the island then moves as one body. Chosen. */
