@@ -239,11 +239,11 @@ physics: ## compare motions with closed forms and published figures, to out/phys
 
 N ?= 5000
 SEED ?= 1
-soak: ## run random worlds under an independent checker, to out/soak.csv and docs/soak.md; N=5000 SEED=1
+soak: ## run random worlds under an independent checker, to out/soak.csv and docs/soak.md; N=5000 SEED=1 KEEP=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_soak.elf
 	@tools/soak.py build/host/host_soak.elf --first $(SEED) --count $(N) \
-	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs)
+	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs) $(if $(KEEP),--keep)
 
 SECONDS ?= 60
 fuzz: ## libFuzzer over calls, questions, pictures, snapshots, recordings, meshes, with sanitizers; SECONDS=60 in all or N= runs each, TARGETS=calls,draw RECORD=1

@@ -52,14 +52,14 @@ def page(text, rows):
 
 
 def record(test, figures):
-    """Keep the figures {name: (value, kind)} of a test in place of its former ones, and write them into the page."""
+    """Keep the figures {name: (value, kind)} of a test in place of the former ones of these names, and write them into the page."""
     assert all(kind in KINDS for _, kind in figures.values())
     rows = results.read(KEPT)
     former = {row["figure"]: number(row["value"]) for row in rows if row["test"] == test}
     now, at = datetime.date.today().isoformat(), commit()
     values = {name: value + former.get(name, 0) if kind == "sum" else value for name, (value, kind) in figures.items()}
     mine = [dict(zip(COLUMNS, (test, name, str(values[name]), kind, now, at))) for name, (_, kind) in figures.items()]
-    rows = sorted([row for row in rows if row["test"] != test] + mine, key=lambda row: row["test"])
+    rows = sorted([row for row in rows if row["test"] != test or row["figure"] not in figures] + mine, key=lambda row: row["test"])
     results.write(KEPT, ",".join(COLUMNS), [list(row.values()) for row in rows])
     with open(PAGE) as file:
         text = file.read()

@@ -4,7 +4,7 @@
 
 PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, with names like 12, m12 and w12: bodies alone, machines, and
 wild machines. Every world is a row of out/soak.csv. The summary is printed and, with --docs, written into docs/soak.md, bodies and
-machines each between two comments. A world that ends the program, or takes too long, gets a row of its own, and the others run
+machines each between two comments. With --keep its counts are added to those of docs/evidence.md. A world that ends the program, or takes too long, gets a row of its own, and the others run
 without it. For each failing world a line says how to run it alone, frame by frame. The exit status is 1 if there is any fault.
 """
 import argparse
@@ -17,6 +17,7 @@ import threading
 import time
 
 import claims
+import evidence
 import gate
 import marked
 
@@ -29,6 +30,7 @@ FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum",
 KINDS = {"": "bodies", "m": "machines", "w": "wild machines"}
 SHARES = {"": 1, "m": 0.2, "w": 0.02}  # as a part of the number of worlds that was asked for
 LOST = "lost"  # the program ended early, or did not end
+COUNTED = ["crosses", "energy", "stands still", "error", LOST, "other hash"]  # over time
 
 
 def lines_of(command):
@@ -180,6 +182,16 @@ def document(by_kind):
                      faults_of(rows))
 
 
+def keep_counts(by_kind):
+    """Add what was run and found to the counts over time."""
+    counts = {}
+    for kind, (rows, _) in by_kind.items():
+        found = {"worlds": len(rows), "frames": sum(int(number(row, "frames")) for row in rows)}
+        found.update({fault: sum(has(row, fault) for row in rows) for fault in COUNTED})
+        counts.update({"%s: %s" % (KINDS[kind], what): (count, "sum") for what, count in found.items()})
+    evidence.record("soak", counts)
+
+
 def print_table(table):
     widths = [max(len(text) for text in cell) for cell in table]
     for i in range(2):
@@ -194,6 +206,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--kinds", default="bmw", help="of worlds: bodies, machines, wild ones")
     parser.add_argument("--docs", action="store_true", help="write the summary into " + DOCS)
+    parser.add_argument("--keep", action="store_true", help="add the counts to those of docs/evidence.md")
     arguments = parser.parse_args()
     os.chdir(gate.ROOT)
     by_kind = {}
@@ -206,6 +219,8 @@ def main():
         by_kind[kind] = made, time.monotonic() - start
     rows = [row for made, _ in by_kind.values() for row in made]
     write_csv(rows)
+    if arguments.keep:
+        keep_counts(by_kind)
     if arguments.docs:
         document(by_kind)
     # frames cut short are counted over all worlds: one world alone is no failure
