@@ -272,7 +272,7 @@ replay: need ## play a recording here and on BOARD=; FILE=; AGAINST= compares it
 	@tools/replay.py '$(FILE)' $(if $(AGAINST),--against '$(AGAINST)') $(addprefix --board=,$(filter-out host,$(ASKED)))
 
 # the scenes of which figures 7 and 8 speak
-PAPER_SCENES := head head450 head836 $(patsubst %,growth-%,512 3034 12012 49928)
+PAPER_SCENES := head head450 espresso $(patsubst %,growth-%,512 3034 12012 49928)
 figures: ## measure and draw the paper's figures 6, 7 and 8, to out/figures and docs/figures.md
 	@tools/need gnuplot pil
 	@$(MAKE) bench SCENES=$(subst $(space),$(comma),$(PAPER_SCENES))
