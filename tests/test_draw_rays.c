@@ -314,12 +314,14 @@ static void shadows(void)
 #ifdef TEST_LONG
 #define BARS 18
 
-/* Bars side by side, 3 pixels from one to the next on the ground: each throws a shadow of its own. */
-static void bars(void)
+static struct carom_mesh bars_mesh;
+static struct solid bars_at[BARS]; /* for the ray caster; the axes of `r` are as long as 1 / size */
+
+/* Bars side by side; their centre of mass is at (3/2, -1, 1/2). */
+static void build_bars(void)
 {
     static int16_t vertices[8 * BARS][3];
     static uint16_t faces[12 * BARS][3];
-    static _Alignas(8) uint8_t room[CAROM_DRAW_BYTES(200, 300) + 400000];
     MESH_MEMORY(memory, 8 * BARS, 12 * BARS);
     struct carom_mesh_raw raw = {(const int16_t(*)[3])vertices,
                                  (const uint16_t(*)[3])faces,
@@ -327,12 +329,6 @@ static void bars(void)
                                  12 * BARS,
                                  12,
                                  CAROM_SOLID};
-    /* more along x than along y, so that a sweep across the light meets all bars at once */
-    struct carom_paint paint = {.light = {{1000, -900, 1000}}, .shadows = &carom_shadows};
-    struct carom_picture picture = picture_8();
-    struct carom_world *world = new_world();
-    struct carom_mesh mesh;
-    int count = 0;
 
     for (unsigned b = 0; b < BARS; b++) {
         const int x = (2 * (int)b - BARS) * 480;
@@ -344,19 +340,127 @@ static void bars(void)
                 faces[12 * b + f][k] = (uint16_t)(8 * b + box_faces[f][k]);
             }
         }
+        bars_at[b] = (struct solid){
+            {{4096.0 / 480, 0, 0}, {0, 1, 0}, {0, 0, 32}},
+            {1.5 + (2 * (int)b - BARS + 1) * 480 / 4096.0, -1, 0.5},
+        };
     }
-    build(&mesh, raw, memory, sizeof memory);
-    add(world, &plain, at(Q32(20, 1), -Q32(20, 1), Q32(-1, 1)), upright, false);
-    add(world, &mesh, at(Q32(3, 2), -Q32(1, 1), Q32(1, 2)), upright, false);
+    build(&bars_mesh, raw, memory, sizeof memory);
+}
+
+/* The bars over a ground that is turned about its middle, with shadows. */
+static uint8_t shaded[SIZE][SIZE];
+
+/* Draw that picture, and the one without shadows. */
+static void draw_bars(const carom_v3_q30 *light, carom_v3_q32 ground, carom_quat_q30 turn)
+{
+    static _Alignas(8) uint8_t room[CAROM_DRAW_BYTES(200, 300) + 400000];
+    struct carom_paint paint = {.light = *light, .shadows = &carom_shadows};
+    struct carom_picture picture = picture_8();
+    struct carom_world *world = new_world();
+
+    build_bars();
+    add(world, &plain, ground, turn, false);
+    add(world, &bars_mesh, at(Q32(3, 2), -Q32(1, 1), Q32(1, 2)), upright, false);
     picture.paint = &paint;
     picture.workspace = room;
     picture.workspace_bytes = sizeof room;
     CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
-    /* the shadow lies 1.35 units up the page from the bars */
-    for (int x = 1; x < SIZE; x++) {
-        count += pixels[26][x] < pixels[26][x - 1];
+    memcpy(shaded, pixels, sizeof shaded);
+    paint.shadows = NULL;
+    CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+    memcpy(bright, pixels, sizeof bright);
+}
+
+/*
+ * Bars 3 pixels from one to the next on the ground: each throws a shadow of its own, wherever the
+ * seam of the ground's two triangles is: across the shadows, or far from them.
+ */
+static void bars(void)
+{
+    static const int64_t grounds[] = {0, Q32(1, 1), Q32(20, 1)};
+    /* more along x than along y, so that a sweep across the light meets all bars at once */
+    const carom_v3_q30 light = {{1000, -900, 1000}};
+
+    for (int i = 0; i < 3; i++) {
+        draw_bars(&light, at(grounds[i], -grounds[i], Q32(-1, 1)), upright);
+        /* the shadow lies 1.35 units up the page from the bars */
+        for (int y = 23; y < 33; y++) {
+            int count = 0;
+
+            for (int x = 1; x < SIZE; x++) {
+                count += shaded[y][x] < shaded[y][x - 1];
+            }
+            CHECK_EQ(count, BARS);
+        }
     }
-    CHECK_EQ(count, BARS);
+}
+
+/* True if a bar is within a part of a ray, which begins at its start. */
+static bool meets_bar(const struct ray *ray, double end)
+{
+    bool meets = false;
+
+    for (int b = 0; b < BARS && !meets; b++) {
+        double part[2];
+
+        slabs(part, ray, &bars_at[b]);
+        meets = part[0] < part[1] && part[1] > 0 && part[0] < end;
+    }
+    return meets;
+}
+
+/* What a place of the picture shows: a bar, 2; the ground, 0, or in shadow, 1. */
+static int see_bars(const carom_v3_q30 *light, double x, double y)
+{
+    const double right = (x - SIZE / 2) / SIZE, down = (y - SIZE / 2) / SIZE;
+    const struct ray eye = {{0, 0, 4}, {right, -down, -1}};
+    const struct ray up = {{5 * right, -5 * down, -1}, {light->c[0], light->c[1], light->c[2]}};
+
+    return meets_bar(&eye, 5) ? 2 : meets_bar(&up, 1e30);
+}
+
+/*
+ * Shadows of bars against rays, under light from anywhere above, over a ground whose seam is
+ * anywhere. Edges may be off by what rounds their corners and what grows them: 1.5 sixteenths of a
+ * pixel along x and along y.
+ */
+static void seams(void)
+{
+    static const int8_t yaws[][3] = {{1, 0, 1}, {4, 3, 5}, {3, 4, 5}, {4, -3, 5}, {3, -4, 5}};
+    const double beside = 1.6 / 16;
+    struct test_random random = {22};
+    struct counts counts = {0, 0, 0};
+
+    for (int scene = 0; scene < 100; scene++) {
+        const int8_t *yaw = yaws[test_random_range(&random, 0, 4)];
+        carom_quat_q30 turn = {{(int32_t)(yaw[0] * (int64_t)CAROM_ONE_Q30 / yaw[2]), 0, 0,
+                                (int32_t)(yaw[1] * (int64_t)CAROM_ONE_Q30 / yaw[2])}};
+        carom_v3_q32 ground = {{0, 0, Q32(-1, 1)}};
+        carom_v3_q30 light = {{0, 0, 1000}};
+
+        for (int k = 0; k < 2; k++) {
+            ground.c[k] = test_random_range(&random, Q32(-2, 1), Q32(2, 1));
+            light.c[k] = (int32_t)test_random_range(&random, -1500, 1500);
+        }
+        draw_bars(&light, ground, turn);
+        for (int i = 0; i < SIZE * SIZE; i++) {
+            const int x = i % SIZE, y = i / SIZE, seen = see_bars(&light, x + 0.5, y + 0.5);
+            bool same = seen < 2;
+
+            for (int k = 0; k < 4 && same; k++) {
+                same = see_bars(&light, x + 0.5 + (k & 1 ? -beside : beside),
+                                y + 0.5 + (k & 2 ? -beside : beside)) == seen;
+            }
+            if (same) {
+                counts.all++;
+                counts.dark += seen;
+                counts.wrong += (shaded[y][x] < bright[y][x]) != seen;
+            }
+        }
+    }
+    CHECK_MORE(counts.dark, 10000);
+    CHECK_EQ(counts.wrong, 0);
 }
 #endif
 
@@ -365,6 +469,7 @@ const struct test tests_draw_rays[] = {
     {"draw_rays/shadows", shadows},
 #ifdef TEST_LONG
     {"draw_rays/bars", bars},
+    {"draw_rays/seams", seams},
 #endif
     {0},
 };

@@ -103,6 +103,11 @@ bool prism_make_all(struct prism_set *set, const struct draw_body *body, const i
     return true;
 }
 
+/*
+ * Distances are rounded down, so a cut may be one unit inside of its plane, and never outside:
+ * where two sides meet at a small angle, a unit beyond both would lengthen the polygon by many
+ * pixels. A gap of some units between prisms is far less than the growth of decals.
+ */
 int prism_cut(const struct prism *prism, int32_t polygon[DRAW_CLIP_MAX][3], int n)
 {
     for (int s = 0; s < PRISM_SIDES && n > 0; s++) {
@@ -116,7 +121,7 @@ int prism_cut(const struct prism *prism, int32_t polygon[DRAW_CLIP_MAX][3], int 
             for (int k = 0; k < 3; k++) {
                 from[k] = polygon[i][k] - corner[k];
             }
-            inside[i] = (carom_dot(prism->side[s].c, from) >> 28) + 1;
+            inside[i] = carom_dot(prism->side[s].c, from) >> 28;
             any = any || inside[i] > 0;
             all = all && inside[i] >= 0;
         }

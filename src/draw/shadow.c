@@ -135,9 +135,11 @@ static int32_t sign(int32_t a)
 }
 
 /*
- * Push the corners of a convex polygon outward by one or two sixteenths of a pixel. Two parts of a
- * shadow that meet along a line round their corners on it independently of each other; grown, they
- * overlap instead of leaving lit pixels between them.
+ * Push the corners of a convex polygon outward by a sixteenth of a pixel along x, y or both. Two
+ * parts of a shadow that meet along a line round their corners on it independently of each other;
+ * grown, they overlap instead of leaving lit pixels between them. A corner between two edges that
+ * look the same way moves no farther than each edge needs: else the shadow would be wider there,
+ * as where the seam of two faces crosses its edge.
  */
 static void grow(struct draw_vertex *corner, int n)
 {
@@ -153,7 +155,7 @@ static void grow(struct draw_vertex *corner, int n)
         int32_t right = sign(y[before] - y[i]) + sign(y[i] - y[after]);
         int32_t down = sign(x[i] - x[before]) + sign(x[after] - x[i]);
 
-        corner[i].yx_q4 = (y[i] + down) * (1 << 16) + ((x[i] + right) & 0xffff);
+        corner[i].yx_q4 = (y[i] + sign(down)) * (1 << 16) + ((x[i] + sign(right)) & 0xffff);
     }
 }
 
