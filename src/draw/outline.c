@@ -7,7 +7,7 @@
  * half way counts.
  */
 #include "../num/sort.h"
-#include "list.h"
+#include "outline.h"
 
 /* Two coordinates across the light of a point in view coordinates. */
 static void across(const struct draw_outline *o, const int32_t at[3], int32_t pq[2])

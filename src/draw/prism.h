@@ -7,7 +7,7 @@
 #ifndef CAROM_SRC_DRAW_PRISM_H
 #define CAROM_SRC_DRAW_PRISM_H
 
-#include "draw.h"
+#include "outline.h"
 
 #define PRISM_SIDES 4
 
