@@ -12,7 +12,7 @@ FUZZ ?=
 # 1: the engine is the two source files of `make amalgamation`
 JOINED ?=
 
-# of `make bench` and `make fixtures`, before the board sets its scenes
+# of `make bench`, `make fixtures` and `make faults`, before the board sets its scenes
 BENCH_SCENES := $(SCENES)
 # of `make view`: the X server, before the board sets its display
 X_DISPLAY := $(if $(filter environment,$(origin DISPLAY)),$(DISPLAY))
@@ -152,7 +152,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics soak fuzz bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics faults worst soak fuzz bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -236,6 +236,16 @@ physics: ## compare motions with closed forms and published figures, to out/phys
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_physics.elf
 	@tools/physics.py build/host/host_physics.elf
+
+faults: ## run scenes with each pool at sizes from 0 to its peak: every call that meets a full one changes nothing; SCENES=
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_faults.elf
+	@tools/faults.py build/host/host_faults.elf $(BENCH_SCENES)
+
+worst: ## look for the dearest step by hill climbing, and compare its counts with the bounds of SPEC.md; TRIES=20000
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_worst.elf
+	@tools/worst.py build/host/host_worst.elf $(TRIES)
 
 N ?= 5000
 SEED ?= 1
@@ -481,6 +491,12 @@ $(B)/suite_%.elf: $(B)/tests/test_%.o $(B)/tests/main.o $(B)/libtests.a $(PROGRA
 	$(link)
 
 $(B)/fuzz.elf: private LDFLAGS += -fsanitize=fuzzer
+
+# It watches the calls that can meet a full pool.
+FAULTS_WRAP := body_add body_set body_set_filter surface_move world_step snapshot_load body_set_material \
+    body_set_face_materials body_set_force_at body_set_torque body_set_gravity_scale body_set_damping \
+    joint_add joint_remove query_faces
+$(B)/host_faults.elf: private LDFLAGS += $(FAULTS_WRAP:%=-Wl,--wrap=carom_%)
 
 $(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
 $(B)/host_paper.elf: $(call objects,$(wildcard tests/paper/*.c))

@@ -406,7 +406,8 @@ int carom_body_push(struct carom_world *world, int body, const carom_v3_q40 *imp
  * The surface stands still within a step. The next step gives its contacts the velocity with which its vertices moved
  * since the last step. Whatever touches it or is near it wakes. Moving bodies that the
  * surface went into are lifted out along its z, with whatever touches them; the surface does that work. The
- * interfering faces and contacts of the last step are forgotten.
+ * interfering faces and contacts of the last step are forgotten, also by a call that fails because of a lift: with
+ * CAROM_ERR_BLOCKED, or a pool that is full.
  *
  * @param body      a body whose mesh is of carom_surface_build()
  * @param vertices  quanta, as many as the mesh has; copied
