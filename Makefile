@@ -242,7 +242,8 @@ faults: ## run scenes with each pool at sizes from 0 to its peak: every call tha
 	@$(SUBMAKE) BOARD=host build/host/host_faults.elf
 	@tools/faults.py build/host/host_faults.elf $(BENCH_SCENES)
 
-worst: ## look for the dearest step by hill climbing, and compare its counts with the bounds of SPEC.md; TRIES=20000
+TRIES ?= 5000
+worst: ## look for the dearest step by hill climbing, and compare its counts with the bounds of SPEC.md; TRIES=5000
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_worst.elf
 	@tools/worst.py build/host/host_worst.elf $(TRIES)

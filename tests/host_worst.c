@@ -18,13 +18,14 @@
 
 #define BODIES 4 /* that move */
 #define FRAMES 4
-#define TRIES  150
+#define TRIES  80
 #define STALE  60 /* tries without a gain before the search begins anew */
 #define CAPS   BODIES + 1, 16, 512, 8192, 0, 4096
 
 /* The counts that are climbed, and their bounds. */
-enum { HITS, SUBSTEPS, GATHERS, CANDIDATES, SWEEPS, COUNTS };
-static const char *const names[COUNTS] = {"hits", "sub-steps", "gathers", "candidates", "sweeps"};
+enum { HITS, SUBSTEPS, REFINEMENTS, GATHERS, CANDIDATES, SWEEPS, COUNTS };
+static const char *const names[COUNTS] = {"hits",    "sub-steps",  "refinements",
+                                          "gathers", "candidates", "sweeps"};
 
 struct thrown {
     int mesh;
@@ -102,6 +103,7 @@ static void bound(const struct world *world, const struct carom_stats *stats, do
     }
     out[HITS] = n * k;
     out[SUBSTEPS] = 1 + n * k + paths;
+    out[REFINEMENTS] = 8 * n * stats->substeps;
     out[GATHERS] = 2 * (2 * 64 + n) * pairs * (stats->substeps + stats->refinements + n);
     out[CANDIDATES] = stats->gathers * 120.0 * product;
     out[SWEEPS] = n * (1 + 2 * stats->hits) * 10 * (3 * 120 + 60 + 16);
@@ -116,8 +118,8 @@ static void hold(const struct world *world, struct carom_world *w, double score[
     lab_expect(carom_stats(w, &stats), "stats");
     lab_expect(carom_usage(w, usage), "usage");
     bound(world, &stats, usage[CAROM_POOL_pairs].size, most);
-    const double counts[COUNTS] = {stats.hits, stats.substeps, stats.gathers, stats.candidates,
-                                   stats.sweeps};
+    const double counts[COUNTS] = {stats.hits,    stats.substeps,   stats.refinements,
+                                   stats.gathers, stats.candidates, stats.sweeps};
 
     for (int i = 0; i < world->count; i++) {
         faces += faces_of(world->bodies[i].mesh);
