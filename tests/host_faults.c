@@ -2,7 +2,7 @@
 /*
  * Pools that are full. Scenes, and a play that makes every call which can meet a full pool, run with each pool at sizes from 0
  * to the peak that they need. Each call that meets a full pool must say so and leave all that a caller can see as it was; the
- * same call fails in the same way again; a snapshot of that world, taken into one with room, goes on as one that had room from
+ * same call fails in the same way again, or now fits; a snapshot of that world, taken into one with room, goes on as one that had room from
  * the start. Pools that only cost time when they are short change nothing.
  *
  *   host_faults              the play at every size, some scenes at some sizes
@@ -336,9 +336,14 @@ static bool try_size(int pool, uint32_t size)
         expect_same(faults_full(result) && !only_costs(pool), "another frame", pool, size, frame);
     }
     if (faults_full(result)) {
-        expect_same(carom_world_step(small_stage.world) == result, "another error", pool, size,
-                    frame);
+        int again;
+
         go_on(frame, pool, size);
+        /* regions are set anew after an error, so fewer pairs may be enough; then the frame is right */
+        again = carom_world_step(small_stage.world);
+        expect_same(again == result || (again == run.status[frame] &&
+                                        carom_world_hash(small_stage.world) == run.hash[frame]),
+                    "another error", pool, size, frame);
     }
     return result >= 0;
 }
