@@ -152,7 +152,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics faults worst soak fuzz bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics faults worst soak fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -262,6 +262,17 @@ fuzz: ## libFuzzer over calls, questions, pictures, snapshots, recordings, meshe
 	@$(SUBMAKE) BOARD=host DEBUG=1 FUZZ=1 COMPILER=clang build/host-debug-fuzz/fuzz.elf
 	@tools/fuzz.py build/host-debug-fuzz/fuzz.elf --seconds $(SECONDS) $(if $(filter command environment,$(origin N)),--runs $(N)) \
 	    $(if $(TARGETS),--targets $(TARGETS)) $(if $(RECORD),--record)
+
+RANDOM ?= 20000
+bytes: ## change each byte of snapshots, recordings and blobs, and RANDOM=20000 numbers of each, check sums corrected, to docs/evidence.md; SEED=
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_bytes.elf build/host/host_replay.elf
+	@tools/bytes.py --random $(RANDOM) --seed $(SEED) $(if $(filter 1,$(SEED)),,--only-random)
+
+snapshots: ## save and load after each of FRAMES=600 frames of the matrix's scenes, to docs/evidence.md with RECORD=1; BIG=1: on m68k, too
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/matrix.elf
+	@tools/snapshots.py build/host/matrix.elf --frames $(FRAMES) $(if $(BIG),--big) $(if $(RECORD),--record)
 
 bench: ## count instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)

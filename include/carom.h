@@ -675,7 +675,7 @@ int carom_snapshot_size(const struct carom_world *world);
  * Masses, materials, meshes and capacities are not part of it.
  *
  * @param[out] out  the snapshot
- * @param bytes     room at `out`, at least carom_snapshot_size()
+ * @param bytes     room at `out`, at least carom_snapshot_size(); #CAROM_SNAPSHOT_BYTES always suffices
  * @return the bytes written; CAROM_ERR_MEMORY
  */
 int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes);

@@ -101,6 +101,16 @@ enum carom_pool {
 #define CAROM_FOUND_BYTES_(b, p, j) ((2 * (p) + (b) + (j)) * sizeof(struct carom_event))
 #define CAROM_SOLVE_BYTES_(p, c)    ((c)*CAROM_WORK_BYTES + CAROM_LESS_(p, c) * CAROM_ROLL_BYTES)
 
+/**
+ * Most bytes of a snapshot of a world, for carom_snapshot_save(): a constant expression of six to nine capacities.
+ *
+ * carom_snapshot_size() says how many a world takes now, mostly far fewer.
+ */
+#define CAROM_SNAPSHOT_BYTES(...) CAROM_SNAPSHOT_BYTES_(__VA_ARGS__, 0, 0, 0, 0)
+#define CAROM_SNAPSHOT_BYTES_(b, p, c, f, e, n, j, x, h, ...)                                      \
+    ((size_t)72 + (size_t)(b)*131 + (size_t)(c)*60 + (size_t)(p)*4 + (size_t)(j)*181 +             \
+     (size_t)(x)*87)
+
 /** As #CAROM_WORLD_BYTES, for capacities known only at run time; 0 for NULL. */
 size_t carom_world_bytes(const struct carom_caps *caps);
 

@@ -5,7 +5,10 @@
  * numbers in random places. Such a snapshot is refused and the world is as it was, or it is taken
  * and is a world: its next steps fail only for lack of room, do no more work than SPEC.md, 6.1
  * allows, and what they leave is taken back. In a pile that crowd.h watches no faces cross that did
- * not cross at first, and no energy comes from nothing.
+ * not cross at first. No energy comes from nothing, if no point is faster than a call may make it.
+ *
+ * Each byte and each length of mesh blobs is changed likewise: they are refused, or read, and a mesh is built of
+ * them or refused.
  *
  *   host_bytes                     a few
  *   host_bytes FROM TO COUNT       each byte of worlds FROM to TO - 1, and COUNT random changes of each
@@ -19,6 +22,7 @@
 
 #include "lib/crowd.h"
 #include "lib/edits.h"
+#include "lib/real.h"
 #include "lib/saved.h"
 
 #define WORLDS     (SAVED_WORLDS + 1) /* the last one is the pile of a crowd */
@@ -37,6 +41,7 @@ static struct {
 
 static struct {
     long changed, refused, taken, steps, failed, wrong, loose;
+    long fast; /* worlds that gained energy, faster at first than a call may make a body */
     double candidates, seconds; /* most of a step: for each face; of time */
 } tally;
 
@@ -180,12 +185,30 @@ static bool has_force(void)
     return false;
 }
 
-static const char *judge_crowd(const struct crowd_tally *watched)
+/* True if each point of each body is slower than 64 units a frame, as the calls ask. */
+static bool is_slow(void)
 {
-    return watched->crossed > 0                ? "faces cross"
-           : watched->inside > 0               ? "a body inside another"
-           : watched->rise > 1 && !has_force() ? "energy from nothing"
-                                               : NULL;
+    double fastest = 0;
+
+    for (int i = 0; i < now.crowd->body_count; i++) {
+        const struct crowd_body *body = &now.crowd->bodies[i];
+
+        fastest = fmax(fastest,
+                       real_length(body->now.body.velocity) +
+                           now.crowd->meshes[body->mesh].radius * real_length(body->now.body.spin));
+    }
+    return fastest < 64;
+}
+
+static const char *judge_crowd(const struct crowd_tally *watched, bool slow)
+{
+    const bool gains = watched->rise > 1 && !has_force();
+
+    tally.fast += gains && !slow;
+    return watched->crossed > 0  ? "faces cross"
+           : watched->inside > 0 ? "a body inside another"
+           : gains && slow       ? "energy from nothing"
+                                 : NULL;
 }
 
 /* ------------------------------------------------------------------------ changes */
@@ -196,9 +219,11 @@ static const char *go_on(int steps)
     static uint8_t after[SAVED_BYTES];
     struct crowd_tally watched = {0};
     int result = CAROM_OK, size;
+    bool slow = true;
 
     if (now.crowd) {
         look_at_crowd();
+        slow = is_slow();
     }
     for (int i = 0; i < steps && result >= 0; i++) {
         const char *fault = step(&watched, &result);
@@ -211,7 +236,7 @@ static const char *go_on(int steps)
     if (size < 0 || carom_snapshot_load(now.saved.world, after, (size_t)size) < 0) {
         return "a state that is not taken back";
     }
-    return now.crowd ? judge_crowd(&watched) : NULL;
+    return now.crowd ? judge_crowd(&watched, slow) : NULL;
 }
 
 static void try_changed(size_t size, int steps, long at)
@@ -291,6 +316,63 @@ static void at_random(long count, uint64_t seed, int steps)
     }
 }
 
+/* -------------------------------------------------------------------------- blobs */
+
+enum { VERTICES = 12, FACES = 20 };
+
+static struct {
+    long changed, read, built, wrong;
+} blobs;
+
+/* A blob is refused and nothing is written, or it is read, and a mesh is built of it or refused. */
+static void try_blob(const uint8_t *blob, size_t size, bool right_sum)
+{
+    static _Alignas(8) uint8_t room[CAROM_BLOB_BYTES(VERTICES, FACES)];
+    static _Alignas(8) uint8_t block[CAROM_MESH_BYTES(VERTICES, FACES)];
+    struct carom_mesh_raw raw = {.face_count = 1234};
+    struct carom_mesh mesh;
+    const int result = carom_mesh_read(&raw, blob, size, room, sizeof room);
+
+    blobs.changed++;
+    blobs.read += result >= 0;
+    blobs.wrong += result < 0 ? raw.face_count != 1234 : !right_sum;
+    if (result >= 0) {
+        blobs.built += carom_mesh_build(&mesh, &raw, block, sizeof block) >= 0;
+    }
+}
+
+/* Each byte of a blob to each other value, and each length, both with a wrong sum and a right one. */
+static void each_blob(const struct carom_mesh_raw *raw)
+{
+    static uint8_t good[EDIT_BLOB_BYTES(VERTICES, FACES)], blob[sizeof good];
+    const size_t size = edit_write_blob(raw, good);
+
+    for (size_t at = 0; at < size; at++) {
+        for (int value = 1; value < 256; value++) {
+            memcpy(blob, good, size);
+            blob[at] ^= (uint8_t)value;
+            try_blob(blob, size, false);
+            edit_mend64(blob, size);
+            try_blob(blob, size, true);
+        }
+        memcpy(blob, good, size);
+        try_blob(blob, at, false);
+        edit_mend64(blob, at);
+        try_blob(blob, at, true);
+    }
+}
+
+static void test_blobs(void)
+{
+    each_blob(&lab_tetrahedron);
+    each_blob(&lab_box);
+    each_blob(&lab_l);
+    each_blob(&lab_sheet);
+    lab_report(blobs.wrong == 0 && blobs.built > 0, "bytes/blobs",
+               "%ld changed, %ld read, %ld built, %ld wrong", blobs.changed, blobs.read,
+               blobs.built, blobs.wrong);
+}
+
 int main(int argc, char **argv)
 {
     const bool few = argc<4, more = argc> 4;
@@ -314,8 +396,10 @@ int main(int argc, char **argv)
     lab_report(
         tally.wrong == 0 && tally.refused > 0 && tally.taken > 0, "bytes/snapshots",
         "%ld changed, %ld taken, %ld steps of which %ld failed, at most %.0f candidates a face "
-        "and %.3f s a step, %ld pairs crossed at first, %ld wrong",
+        "and %.3f s a step, %ld pairs crossed at first, %ld gained energy at speeds beyond the "
+        "calls', %ld wrong",
         tally.changed, tally.taken, tally.steps, tally.failed, tally.candidates, tally.seconds,
-        tally.loose, tally.wrong);
+        tally.loose, tally.fast, tally.wrong);
+    test_blobs();
     return lab_finish();
 }

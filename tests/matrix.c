@@ -7,6 +7,7 @@
  *          each=1   a line a frame: its state hash
  *          trace=N  a line for each stage that ends in frame N: a digest of the world
  *          save=1   a line with the snapshot after frame `at`, where there is memory for one
+ *          reload=1 after every frame save, load the snapshot in the same world and in one made anew; the hash must not change
  *          load=F   go on from a snapshot file, as if it had been saved after frame `at`
  *
  * A scene's line is "scene NAME FRAMES AWAKE HASH FUTURE": the frames, and how many of them end
@@ -24,9 +25,13 @@
 #define WORLD_BYTES    SCENE_WORLD_BYTES
 #define SNAPSHOT_BYTES 8
 #else
-#define MESH_BYTES     SCENE_MESH_BYTES
-#define WORLD_BYTES    CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
+#define MESH_BYTES  SCENE_MESH_BYTES
+#define WORLD_BYTES CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
+#ifdef __linux__
+#define SNAPSHOT_BYTES CAROM_SNAPSHOT_BYTES(SCENE_PILE_CAPS)
+#else
 #define SNAPSHOT_BYTES 8192
+#endif
 #endif
 
 /*
@@ -42,7 +47,7 @@ static uint8_t snapshot[SNAPSHOT_BYTES];
 /* The options of a run. */
 static struct {
     int frames, at, fill, trace;
-    bool each, save;
+    bool each, save, reload;
     const char *scene, *load;
 } wanted;
 
@@ -218,12 +223,21 @@ static uint32_t tick(void)
 
 /* ------------------------------------------------------------------------- a play */
 
+/* Make the world of the run's scene, with nothing done to it yet. */
+static int make_world(struct run *run)
+{
+    struct carom_config config = scene_config();
+
+    config.caps = run->scene.caps;
+    config.ticks = wanted.trace ? tick : NULL;
+    return scene_make(&run->scene, &config, world_block, sizeof world_block, &run->world);
+}
+
 /*
  * Build the meshes and make the world. An error means too little memory, or a fault of the scene.
  */
 static int load(struct run *run, const struct play *play)
 {
-    struct carom_config config = scene_config();
     struct scene *scene = &run->scene;
     int result;
 
@@ -242,9 +256,7 @@ static int load(struct run *run, const struct play *play)
     if (play->arrange) {
         play->arrange(scene);
     }
-    config.caps = scene->caps;
-    config.ticks = wanted.trace ? tick : NULL;
-    return scene_make(scene, &config, world_block, sizeof world_block, &run->world);
+    return make_world(run);
 }
 
 /* Load the snapshot that was saved after frame `at`. */
@@ -278,6 +290,28 @@ static void save(const struct run *run)
         put_hex(snapshot[i], 2);
     }
     put("\n");
+}
+
+static void take_back(struct run *run, int frame, int bytes, uint64_t hash)
+{
+    expect(run, frame, carom_snapshot_load(run->world, snapshot, (size_t)bytes), "reload");
+    expect(run, frame, carom_world_hash(run->world) == hash ? CAROM_OK : CAROM_ERR_FORMAT, "hash");
+}
+
+/* Save; load in this world, and in one made anew, which goes on in its place. */
+static void reload(struct run *run, int frame)
+{
+    const struct carom_caps *c = &run->scene.caps;
+    const size_t most = CAROM_SNAPSHOT_BYTES(c->bodies, c->pairs, c->contacts, c->faces, c->entries,
+                                             c->candidates, c->joints, c->extras, c->hits);
+    const uint64_t hash = carom_world_hash(run->world);
+    const int bytes =
+        expect(run, frame, carom_snapshot_save(run->world, snapshot, sizeof snapshot), "save");
+
+    expect(run, frame, (size_t)bytes <= most ? CAROM_OK : CAROM_ERR_MEMORY, "size");
+    take_back(run, frame, bytes, hash);
+    expect(run, frame, make_world(run), "make");
+    take_back(run, frame, bytes, hash);
 }
 
 static bool is_awake(const struct run *run)
@@ -368,6 +402,9 @@ static void perform(const struct play *play)
         if (wanted.save && frame == wanted.at) {
             save(&run);
         }
+        if (wanted.reload) {
+            reload(&run, frame);
+        }
     }
     put("scene ");
     put(play->name);
@@ -391,6 +428,7 @@ int main(void)
     wanted.trace = number("trace", 0);
     wanted.each = number("each", 0) != 0;
     wanted.save = number("save", 0) != 0;
+    wanted.reload = number("reload", 0) != 0;
     wanted.scene = port_option("scene");
     wanted.load = port_option("load");
     for (int i = 0; i < PLAYS; i++) {

@@ -146,6 +146,7 @@ static int save(const struct carom_world *w, uint8_t *bytes)
 
     CHECK_MORE(n, AT_WARM);
     CHECK_EQ(n, carom_snapshot_size(w));
+    CHECK_AT_MOST(n, CAROM_SNAPSHOT_BYTES(CAPS));
     return n > 0 ? n : 0;
 }
 

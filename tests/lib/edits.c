@@ -100,3 +100,26 @@ void edit_mend32(uint8_t *bytes, size_t size)
         put_number(bytes + size - 4, sum, 4);
     }
 }
+
+static uint8_t *put(uint8_t *at, uint32_t v, int n)
+{
+    put_number(at, v, n);
+    return at + n;
+}
+
+size_t edit_write_blob(const struct carom_mesh_raw *raw, uint8_t *blob)
+{
+    uint8_t *at = blob + 8;
+
+    memcpy(blob, "CRM1\1", 5);
+    put(put(put(blob + 5, raw->kind, 1), raw->quantum_bits, 1), 0, 1);
+    at = put(put(at, raw->vertex_count, 4), raw->face_count, 4);
+    for (uint32_t i = 0; i < 3 * raw->vertex_count; i++) {
+        at = put(at, (uint16_t)raw->vertices[i / 3][i % 3], 2);
+    }
+    for (uint32_t i = 0; i < 3 * raw->face_count; i++) {
+        at = put(at, raw->faces[i / 3][i % 3], 2);
+    }
+    edit_mend64(blob, (size_t)(at - blob) + 8);
+    return (size_t)(at - blob) + 8;
+}

@@ -3,6 +3,7 @@
 #ifndef CAROM_TESTS_EDITS_H
 #define CAROM_TESTS_EDITS_H
 
+#include "carom_mesh.h"
 #include "chance.h"
 
 /* Change up to four places before `size`. Lengths stay. */
@@ -10,5 +11,9 @@ void edit_bytes(struct chance *c, uint8_t *bytes, size_t size);
 /* Write the FNV-1a of all bytes before to the end: of 64 bits for a snapshot and a blob, of 32 for a recording. */
 void edit_mend64(uint8_t *bytes, size_t size);
 void edit_mend32(uint8_t *bytes, size_t size);
+
+/* Write the blob of a mesh as SPEC.md, 3.3 lays it down, into EDIT_BLOB_BYTES; returns its size. */
+#define EDIT_BLOB_BYTES(vertices, faces) (24 + 6 * ((vertices) + (faces)))
+size_t edit_write_blob(const struct carom_mesh_raw *raw, uint8_t *blob);
 
 #endif

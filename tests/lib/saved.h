@@ -5,7 +5,7 @@
 
 #include "fuzz.h"
 
-#define SAVED_BYTES 8192
+#define SAVED_BYTES CAROM_SNAPSHOT_BYTES(FUZZ_CAPS)
 #define SAVED_WORLDS                                                                               \
     8 /* 0: a pile; 1: joints and a kinematic body; the others: after random calls */
 

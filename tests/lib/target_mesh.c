@@ -69,33 +69,15 @@ static void make_changed(struct carom_mesh_raw *raw)
     raw->face_count -= fuzz_pick(&fuzz, 9) ? 0 : (uint32_t)fuzz_pick(&fuzz, (int)raw->face_count);
 }
 
-static uint8_t *put(uint8_t *at, uint32_t v, int bytes)
-{
-    for (int i = 0; i < bytes; i++) {
-        *at++ = (uint8_t)(v >> 8 * i);
-    }
-    return at;
-}
-
-/* The blob of a mesh as SPEC.md lays it down, changed, its sum mended; it is read into `raw`. */
+/* The blob of a mesh, changed, with its sum corrected; it is read into `raw`. */
 static int make_blob(struct carom_mesh_raw *raw)
 {
-    static uint8_t blob[24 + 6 * (VERTICES + FACES)];
+    static uint8_t blob[EDIT_BLOB_BYTES(VERTICES, FACES)];
     static _Alignas(8) uint8_t room[CAROM_BLOB_BYTES(VERTICES, FACES)];
-    uint8_t *at = blob + 8;
     size_t size;
 
     make_changed(raw);
-    memcpy(blob, "CRM1\1", 5);
-    put(put(put(blob + 5, raw->kind, 1), raw->quantum_bits, 1), 0, 1);
-    at = put(put(at, raw->vertex_count, 4), raw->face_count, 4);
-    for (uint32_t i = 0; i < 3 * raw->vertex_count; i++) {
-        at = put(at, (uint16_t)vertices[i / 3][i % 3], 2);
-    }
-    for (uint32_t i = 0; i < 3 * raw->face_count; i++) {
-        at = put(at, faces[i / 3][i % 3], 2);
-    }
-    size = (size_t)(at - blob) + 8;
+    size = edit_write_blob(raw, blob);
     if (fuzz_pick(&fuzz, 3) == 0) {
         edit_bytes(&fuzz.chance, blob, fuzz_pick(&fuzz, 2) ? 16 : size);
     }
