@@ -1,10 +1,10 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Save and load a world after every frame of the matrix's scenes (tests/matrix.c, reload=1): snapshots.py PROGRAM.
+"""Save and load a world after every frame of the matrix's scenes (tests/matrix.c, reload=): snapshots.py PROGRAM.
 
 PROGRAM is build/host/matrix.elf. It plays each scene as it is, and with a snapshot after every frame that is loaded into the same
-world and into one made anew. All hashes must be equal. --big plays scenes with snapshots on a big-endian processor, too: the
-hash of a frame is the hash of its snapshot's bytes, so equal hashes mean equal snapshots in both byte orders.
+world and then into one made anew, which goes on. All hashes must be equal. --big plays scenes with snapshots on a big-endian
+processor, too: the hash of a frame is that of its snapshot's bytes, so equal hashes mean equal snapshots in both byte orders.
 """
 import argparse
 import os
@@ -16,6 +16,8 @@ import matrix
 
 SCENES = ["head", "pile", "sheet", "door", "walker"]  # what --big plays; the last four are those that the matrix hands over
 BIG = "m68k"
+# its calls follow from the events of the last step, which a world made anew does not have; loaded in the same world only
+BY_EVENTS = ["car"]
 
 
 def big_build():
@@ -29,7 +31,7 @@ def big_build():
 
 def results(command, frames, *options):
     """The results of scenes by name."""
-    text = matrix.call([*command, "frames=%d" % frames, *options], " ".join(options))
+    text = matrix.call([*command, "asks=0", "frames=%d" % frames, *options], " ".join(options))
     words = [line.split() for line in text.splitlines()]
     return {line[1]: line[2:] for line in words if line and line[0] == "scene"}
 
@@ -44,13 +46,15 @@ def main():
     matrix.TIMEOUT = 7200
     program = [os.path.abspath(options.program)]
     plain = results(program, options.frames)
-    again = results(program, options.frames, "reload=1")
+    again = results(program, options.frames, "reload=2")
+    for scene in BY_EVENTS:
+        again.update(results(program, options.frames, "reload=1", "scene=" + scene))
     wrong = sorted(set(plain) ^ set(again)) + [scene for scene in plain if again.get(scene) != plain[scene]]
     count, big_count = len(again), 0
     if options.big:
         command = big_build()
         for scene in SCENES:
-            other = results(command, options.frames, "scene=" + scene, "reload=1")
+            other = results(command, options.frames, "scene=" + scene, "reload=2")
             big_count += 1
             wrong += [] if other[scene] == plain[scene] else ["%s on %s" % (scene, BIG)]
     for scene in wrong:
@@ -60,7 +64,7 @@ def main():
     if options.record:
         evidence.record("snapshots", {
             "frames of a scene": (options.frames, "fact"), "scenes, little-endian": (count, "more"),
-            "scenes, big-endian": (big_count, "more"), "snapshots loaded": (2 * options.frames * (count + big_count), "sum"),
+            "scenes, big-endian": (big_count, "more"), "snapshots loaded": (options.frames * (2 * (count + big_count) - len(BY_EVENTS)), "sum"),
             "scenes that differ": (len(wrong), "less")})
     return 1 if wrong or not again else 0
 
