@@ -32,16 +32,17 @@ def main():
     options = parser.parse_args()
     one = [str(options.random)] + ([str(options.seed)] if options.only_random else [])
     found = [figures([BYTES, str(n), str(n + 1), *one]) for n in range(WORLDS)]
-    snapshots = [lines.get("bytes/snapshots", [0, 0, 0, 0, 0, 0, 0, 0, 1]) for lines in found]
+    snapshots = [lines.get("bytes/snapshots", [0, 0, 0, 0, 0, 0, 0, 0, 0, 1]) for lines in found]
     recordings = [] if options.only_random else figures([REPLAY, "long"]).get("replay/hostile", [0, 0, 0, 1])
     total = [sum(column) for column in zip(*snapshots)]
-    wrong = total[8] + (recordings[3] if recordings else 0)
+    wrong = total[9] + (recordings[3] if recordings else 0)
     evidence.record("bytes", {
         "snapshots, changed": (int(total[0]), "sum"), "snapshots, taken": (int(total[1]), "sum"),
         "steps after them": (int(total[2]), "sum"), "steps that lacked room": (int(total[3]), "sum"),
         "most candidates of a step, a face": (int(max(line[4] for line in snapshots)), "fact"),
         "longest step, s": (max(line[5] for line in snapshots), "fact"),
-        "worlds faster than calls allow, with energy from nothing": (int(total[7]), "sum"),
+        "worlds faster than calls allow, with energy from nothing": (int(total[8]), "sum"),
+        "steps with more than 1,024 candidates a face": (int(total[7]), "sum"),
         "blobs, changed": (int(found[0].get("bytes/blobs", [0])[0]), "sum"),
         "recordings, changed": (int(sum(recordings[:3])) if recordings else 0, "sum"), "wrong": (int(wrong), "less")})
     return 1 if wrong else 0
