@@ -48,6 +48,9 @@ static inline void row_overlap(struct draw_sweep *s, struct draw_span *span)
     if (s->end <= s->x) {
         s->top = NULL;
     }
+    if (s->under_count == 0) {
+        s->clear = s->end;
+    }
     draw_overlap(s, span);
     s->gate = INT32_MAX;
     if (s->top == NULL) {
@@ -96,15 +99,16 @@ DRAW_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, 
                 draw_depths(s, span);
             }
             if (top && a < end && draw_hides(s, top, span)) {
+                s->clear = s->under_count == 1 ? end : s->clear;
                 gate = INT32_MAX;
                 continue;
             }
-            if (top && a == end && a < safe && draw_shows(s, span)) {
+            if (top && a == end && a < safe && s->clear == end && draw_shows(s, span)) {
                 fill_top(s, top, tints, pixel_shift, x, end, pixel);
                 top = span;
                 pixel = span->pixel;
                 x = a;
-                end = b;
+                end = s->clear = b;
                 continue;
             }
             s->x = x;
@@ -130,6 +134,7 @@ DRAW_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, 
     s->x = x;
     s->top = end > x ? top : NULL;
     s->end = end;
+    s->clear = s->under_count == 0 ? end : s->clear;
     draw_advance(s, x1);
 }
 

@@ -47,6 +47,7 @@ static inline void begin_span(struct draw_span *span, const struct draw_vertex *
     int32_t rows_b = draw_row(b) - row, rows_c = draw_row(c) - row;
 
     span->w_high = 0;
+    span->row = DRAW_NO_ROW;
     span->rest = 0;
     if (rows_b <= 0) {
         set_side(span, 0, b, c, row);

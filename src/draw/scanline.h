@@ -75,8 +75,12 @@ struct draw_span {
     const struct draw_face *face;
     uint32_t w_low, w_high; /* bounds of its corners' depth; 0 until needed */
     struct draw_span *next; /* in the list of spans that begin, or of free ones */
+    /* depth at the middle of pixel 0 of a row; growth a pixel to the right and a row down */
+    int32_t row; /* DRAW_NO_ROW until needed */
+    int64_t w_q30, right_q26, below_q26;
 };
 
+#define DRAW_NO_ROW    INT32_MIN
 #define DRAW_UNDER_MAX 64
 
 /* A row whose pixels before x are done. */
@@ -93,6 +97,8 @@ struct draw_sweep {
     uint32_t ground;       /* background pixel */
     struct draw_span *top; /* the face that shows from x on; NULL: unknown, or none */
     int32_t end;           /* where the top span ends */
+    int32_t clear;         /* up to here the top span is in front of all spans in `under` ... */
+    int next;              /* ... and there, before its end, this one of them comes in front */
     int32_t gate;          /* a span that begins at or after this meets no other */
     uint32_t under_high;   /* bound on the depth of the spans in `under`, w_q26 */
     int under_count;
