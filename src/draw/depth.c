@@ -22,7 +22,7 @@ void draw_depths(const struct draw_sweep *s, struct draw_span *span)
  * depths differ by less than 2^31, so numerators are below 2^51, and slopes below 2^43 as the area
  * is at least 2^8; times 2^15 sixteenths of a pixel that is below 2^58, either way.
  */
-static void set_plane(const struct draw_sweep *s, struct draw_span *span)
+DRAW_OUT_OF_LINE void set_plane(const struct draw_sweep *s, struct draw_span *span)
 {
     const struct draw_face *face = draw_plane(span->face);
     const struct draw_vertex *a = &s->vertices[face->corner[0]];
@@ -88,7 +88,7 @@ static bool in_front(const struct draw_sweep *s, struct draw_span *a, struct dra
  * Limit the top span to where a span under it does not show yet: to the first pixel, from x on, at
  * which the planes cross or the other span begins in front.
  */
-static inline void limit_top(struct draw_sweep *s, struct draw_span *top, int number)
+DRAW_OUT_OF_LINE void limit_top(struct draw_sweep *s, struct draw_span *top, int number)
 {
     struct draw_span *u = s->under[number];
     int32_t from = u->x_q15[0] >> 15, end = u->x_q15[1] >> 15;
@@ -129,7 +129,7 @@ static void set_top(struct draw_sweep *s, struct draw_span *top)
 }
 
 /* Put a span under the top one. A span that finds no room shows nowhere. */
-DRAW_OUT_OF_LINE void put_under(struct draw_sweep *s, struct draw_span *span)
+static void put_under(struct draw_sweep *s, struct draw_span *span)
 {
     if (s->under_count == DRAW_UNDER_MAX) {
         set_top(s, s->top); /* removes spans that have ended */
