@@ -10,6 +10,6 @@ OPT := -O2 -funroll-loops
 CPU := Cortex-M3
 CLOCK_MHZ := 25
 DISPLAY := none; frames by semihosting
-SCENES := head:13 head450:20 sheet:8 box:20 walker:60 door:8 conveyor:4
+SCENES := head:13 head450:20 head836:23 sheet:16 pile:1 box:49 car walker:60 lockstep door:8 chain crusher conveyor:4 gears:1 screw newton:2 dominoes cards arch bowl:2 pour espresso:34 espresso-fine:30
 PICTURES := 0
 SUITE_IMAGES := 1

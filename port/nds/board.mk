@@ -12,9 +12,9 @@ CPU := ARM946E-S
 CLOCK_MHZ := 67.03
 CYCLES := 1
 DISPLAY := LCD 256 x 192
-SCENES := head:9 head836:17 head450:21 pile:1 box:40 walker:11 door:9 conveyor:5
-ROM_SCENES := head head836 head450 pile box walker door conveyor
-GAME_CAPS := 11,32,128,512,0,1024,1,4
+SCENES := head:9 head450:21 head836:17 pile:1 box:40 walker:11 door:9 crusher:1 conveyor:5 newton:3 cards arch bowl:3 espresso:19 espresso-fine:14
+ROM_SCENES := head head836 head450 pile box walker door conveyor crusher newton cards arch bowl espresso espresso-fine
+GAME_CAPS := 18,80,192,512,0,1024,5,4
 PICTURES := 1
 # some tests use scenes that the board lacks, one uses larger worlds
 SUITES := $(filter-out scene_models draw_rows scene_games scene_lockstep query_recall,$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))

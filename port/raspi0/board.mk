@@ -10,6 +10,6 @@ ICOUNT_SHIFT := 10
 CPU := ARM1176JZF-S
 CLOCK_MHZ := 1000
 DISPLAY := HDMI 512 x 512
-SCENES := head:60 head450:60 sheet:60 pile:40 box:60 car:5 walker:60 door:60 chain:1 crusher:17 conveyor:60 newton:25 dominoes:10 arch:10 bowl:20
+SCENES := head:60 head450:60 head836:60 sheet:60 pile:41 box:60 car:6 walker:60 lockstep door:60 chain:1 crusher:17 conveyor:60 gears:22 screw:21 newton:59 dominoes:18 cards:10 arch:13 bowl:46 pour:7 espresso:60 espresso-fine:60
 PICTURES := 1
 SUITE_IMAGES := 1
