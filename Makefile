@@ -11,6 +11,8 @@ PAPER ?=
 FUZZ ?=
 # 1: the engine is the two source files of `make amalgamation`
 JOINED ?=
+# 1: the engine counts what runs, for `make coverage`
+COVERED ?=
 
 # of `make bench`, `make fixtures` and `make faults`, before the board sets its scenes
 BENCH_SCENES := $(SCENES)
@@ -38,7 +40,7 @@ ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 
 # ---------------------------------------------------------------- tools, flags
 
-B := build/$(BOARD)$(if $(DEBUG),-debug)$(if $(FUZZ),-fuzz)$(if $(JOINED),-joined)
+B := build/$(BOARD)$(if $(DEBUG),-debug)$(if $(FUZZ),-fuzz)$(if $(JOINED),-joined)$(if $(COVERED),-covered)
 TARGET_CC := $(or $(COMPILER),$(if $(CROSS),$(CROSS)gcc,$(CC)))
 TARGET_AR := $(CROSS)ar
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
@@ -54,7 +56,8 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           $(if $(SHADOWS),-DBOARD_SHADOWS) $(if $(SMOOTH),-DBOARD_SMOOTH) \
           $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ))
-LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
+COUNTERS := $(if $(COVERED),-fprofile-instr-generate)
+LDFLAGS := $(ARCH) $(SANITIZE) $(COUNTERS) -Wl,--gc-sections
 JOINED_SOURCES := build/amalgamation/carom.c build/amalgamation/carom_draw.c
 PAPER_LINK := -Wl,--wrap=interfere_leaves -Wl,--wrap=interfere_note_faces
 ENGINE_SOURCES := $(if $(JOINED),$(JOINED_SOURCES),$(wildcard src/*/*.c))
@@ -152,7 +155,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics faults worst soak fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics faults worst soak coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -274,6 +277,12 @@ snapshots: ## save and load after each of FRAMES=600 frames of the matrix's scen
 	@$(SUBMAKE) BOARD=host build/host/matrix.elf
 	@tools/snapshots.py build/host/matrix.elf --frames $(FRAMES) $(if $(BIG),--big) $(if $(RECORD),--record)
 
+COVERAGE := $(patsubst build/host/%,build/host-covered/%,build/host/tests.elf $(HOST_TESTS) $(ACCURACY))
+coverage: ## lines, branches and MC/DC of src/ that the host tests run, to out/coverage; SHORT=1
+	@tools/need $(NEED_MESHES) $(NEED_HOST) clang-19
+	@$(SUBMAKE) BOARD=host COVERED=1 $(COVERAGE)
+	@tools/coverage.py $(if $(SHORT),--short) $(COVERAGE)
+
 bench: ## count instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
 	@$(SUBMAKE) BOARD=host build/host/bench.elf
@@ -387,7 +396,11 @@ $(B)/flags: force
 	@echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' | cmp -s - $@ || \
 	    echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' > $@
 
-$(B)/src/%.o: private CFLAGS += -ffreestanding
+$(B)/src/%.o: private CFLAGS += -ffreestanding $(if $(COVERED),-w $(COUNTERS) -fcoverage-mapping -fcoverage-mcdc)
+ifneq ($(COVERED),)
+# The engine only: the tests are what `make test` builds. Debian has no earlier clang with MC/DC.
+$(B)/src/%.o $(B)/%.elf: private TARGET_CC := clang-19
+endif
 # the variables of functions that print must not lie on the stack while a step runs
 $(B)/examples/%.o: private CFLAGS += -fno-inline
 $(B)/tests/%.o: private CFLAGS += $(if $(CROSS)$(DEBUG),,-DTEST_LONG)

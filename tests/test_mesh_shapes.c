@@ -253,7 +253,12 @@ static void largest_circle(void)
 static void refusals(void)
 {
     const struct carom_mesh_raw before = {NULL, NULL, 1, 2, 3, 0};
-    const int32_t half[3] = {1, 1, 1}, none[3] = {1, 0, 1};
+    const int32_t half[3] = {1, 1, 1}, none[3] = {1, 0, 1}, wide[3] = {1, 1, 32768};
+    const struct carom_shape_room no_vertices = {NULL, faces, V_MAX, F_MAX, 10};
+    const struct carom_shape_room no_faces = {vertices, NULL, V_MAX, F_MAX, 10};
+    const struct carom_shape_room seven = {vertices, faces, 7, 12, 10};
+    const struct carom_shape_room eleven = {vertices, faces, 8, 11, 10};
+    const struct carom_shape_room coarse = {vertices, faces, V_MAX, F_MAX, 6};
     struct carom_shape_room small = room, fine = room;
 
     raw = before;
@@ -263,6 +268,14 @@ static void refusals(void)
     CHECK_EQ(carom_shape_box(&raw, NULL, half), CAROM_ERR_NULL);
     CHECK_EQ(carom_shape_box(&raw, &room, NULL), CAROM_ERR_NULL);
     CHECK_EQ(carom_shape_box(&raw, &room, none), CAROM_ERR_ARGUMENT);
+    CHECK_EQ(carom_shape_box(&raw, &no_vertices, half), CAROM_ERR_NULL);
+    CHECK_EQ(carom_shape_box(&raw, &no_faces, half), CAROM_ERR_NULL);
+    CHECK_EQ(carom_shape_box(&raw, &seven, half), CAROM_ERR_MEMORY);
+    CHECK_EQ(carom_shape_box(&raw, &eleven, half), CAROM_ERR_MEMORY);
+    CHECK_EQ(carom_shape_box(&raw, &coarse, half), CAROM_ERR_ARGUMENT);
+    CHECK_EQ(carom_shape_box(&raw, &room, wide), CAROM_ERR_ARGUMENT);
+    CHECK_EQ(carom_shape_sphere(NULL, &room, 1000, 8), CAROM_ERR_NULL);
+    CHECK_EQ(carom_shape_capsule(&raw, &room, 1000, -1, 8), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_box(&raw, &fine, half), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_sphere(&raw, &small, 1000, 8), CAROM_ERR_MEMORY);
     small.face_count++;

@@ -168,10 +168,10 @@ static uint64_t record_all(bool stages, uint64_t seed)
     return carom_world_hash(world);
 }
 
-/* Play the recording; returns its last result. */
-static int play(size_t bytes)
+/* Play the recording in so much memory; returns the result it ends with. */
+static int play_in(size_t bytes, size_t memory)
 {
-    int result = carom_replay_begin(&player, file, bytes, room, sizeof room);
+    int result = carom_replay_begin(&player, file, bytes, room, memory);
 
     if (result < 0) {
         return result;
@@ -180,6 +180,11 @@ static int play(size_t bytes)
         result = carom_replay_frame(&player);
     } while (result == CAROM_REPLAY_FRAME);
     return result;
+}
+
+static int play(size_t bytes)
+{
+    return play_in(bytes, sizeof room);
 }
 
 static void test_same(void)
@@ -309,12 +314,137 @@ static void test_others(void)
     CHECK_EQ(carom_replay_frame(NULL), CAROM_ERR_NULL);
 }
 
+/* What the plain call refuses for its pointers, the recorded call refuses, too; the recording goes on and is played to its end. */
+static void test_null(void)
+{
+    const carom_v3_q40 v = {{1, 0, 0}};
+    const carom_v3_q32 p = {{1, 0, 0}};
+    const struct carom_body_def no_mesh = {.stationary = true};
+    struct carom_record *r = &record;
+    struct carom_world *w;
+    size_t bytes;
+
+    file_bytes = 0;
+    CHECK_EQ(carom_record_begin(r, write_file, NULL, false, NULL), CAROM_OK);
+    w = make_world();
+    CHECK_EQ(carom_record_body_set_material(r, w, 1, &materials[0]), CAROM_OK);
+    bytes = file_bytes;
+    CHECK_EQ(carom_record_body_add(r, w, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_body_add(r, w, &no_mesh), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_joint_add(r, w, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_body_set_force_at(r, w, 1, NULL, &p), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_body_set_force_at(r, w, 1, &v, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_body_push(r, w, 1, NULL, &p), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_body_push(r, w, 1, &v, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_world_set_gravity(r, w, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_body_set_face_materials(r, w, 1, materials, 2, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_body_set_face_materials(r, w, 99, materials, 2, of_face), CAROM_ERR_BODY);
+    CHECK_EQ(carom_record_body_set_face_materials(r, w, 1, materials, 0, of_face),
+             CAROM_ERR_ARGUMENT);
+    CHECK_EQ(carom_record_body_set_face_materials(r, w, 1, materials, 257, of_face),
+             CAROM_ERR_ARGUMENT);
+    CHECK_EQ(carom_record_surface_move(r, w, 0, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_snapshot_load(r, w, NULL, 0), CAROM_ERR_NULL);
+    CHECK_EQ(file_bytes, bytes); /* none of these is written */
+    CHECK_LESS(carom_record_surface_move(r, w, 99, raised), 0);
+    CHECK_EQ(carom_record_body_set_face_materials(r, w, 1, NULL, 0, NULL), CAROM_OK);
+    CHECK_MORE(file_bytes, bytes); /* these are */
+    CHECK_AT_LEAST(carom_record_world_step(r, w), 0);
+    CHECK_EQ(carom_record_end(r), CAROM_OK);
+    CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
+    CHECK_EQ(player.frames, 1);
+}
+
+/* A recorder without a file, one that has its world, and no recorder at all: the world is made, and not recorded. */
+static void test_unrecorded(void)
+{
+    static _Alignas(8) uint8_t other_block[CAROM_WORLD_BYTES(CAPS)];
+    const struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
+    struct carom_world *world, *other = NULL;
+    size_t bytes;
+
+    CHECK_EQ(carom_record_begin(NULL, write_file, NULL, false, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_end(NULL), CAROM_ERR_NULL);
+    file_bytes = 0;
+    CHECK_EQ(carom_record_begin(&record, write_file, NULL, false, NULL), CAROM_OK);
+    world = make_world();
+    bytes = file_bytes;
+    CHECK_EQ(carom_record_world_init(&record, other_block, sizeof other_block, &config, &other),
+             CAROM_OK);
+    CHECK_AT_LEAST(carom_record_world_step(&record, other), 0);
+    CHECK_EQ(carom_record_world_init(NULL, other_block, sizeof other_block, &config, &other),
+             CAROM_OK);
+    CHECK_EQ(carom_record_world_init(&record, block, 16, &config, &other), CAROM_ERR_MEMORY);
+    CHECK_EQ(carom_record_world_init(&record, block, sizeof block, NULL, &other), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_world_init(&record, block, sizeof block, &config, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_world_step(&record, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_world(NULL, world, other_block, sizeof other_block), CAROM_ERR_NULL);
+    CHECK_EQ(carom_record_world(&record, world, NULL, 0), CAROM_ERR_NULL);
+    CHECK_EQ(file_bytes, bytes);
+}
+
+/* A note is cut after 63 characters. */
+static void test_note(void)
+{
+    char note[65];
+
+    memset(note, 'n', sizeof note);
+    note[64] = 0;
+    for (int length = 62; length <= 64; length++) {
+        note[length] = 0;
+        file_bytes = 0;
+        CHECK_EQ(carom_record_begin(&record, write_file, NULL, false, note), CAROM_OK);
+        make_world();
+        CHECK_EQ(carom_record_end(&record), CAROM_OK);
+        CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
+        CHECK_EQ(player.note_bytes, length < 63 ? length : 63);
+        note[length] = 'n';
+    }
+}
+
+/* The player's own arguments, and the names that it gives. */
+static void test_player(void)
+{
+    uint64_t digests[CAROM_REPLAY_PARTS];
+
+    record_all(false, 1);
+    CHECK_EQ(carom_replay_begin(NULL, file, file_bytes, room, sizeof room), CAROM_ERR_NULL);
+    CHECK_EQ(carom_replay_begin(&player, NULL, file_bytes, room, sizeof room), CAROM_ERR_NULL);
+    CHECK_EQ(carom_replay_begin(&player, file, file_bytes, NULL, 0), CAROM_ERR_NULL);
+    CHECK_EQ(carom_replay_begin(&player, file, file_bytes, room + 4, 1000), CAROM_ERR_MEMORY);
+    CHECK_EQ(carom_replay_digests(NULL, digests), CAROM_ERR_NULL);
+    CHECK_EQ(carom_replay_digests((struct carom_world *)block, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(strcmp(carom_replay_call_name(CAROM_CALL_world_init), "carom_world_init"), 0);
+    CHECK_EQ(strcmp(carom_replay_call_name(CAROM_CALL_joint_set), "carom_joint_set"), 0);
+    CHECK_EQ(strcmp(carom_replay_call_name(CAROM_CALL_COUNT), "unknown"), 0);
+    CHECK_EQ(strcmp(carom_replay_call_name(-1), "unknown"), 0);
+    CHECK_SAME(carom_replay_part_name(CAROM_REPLAY_BOYSE), carom_stage_name(CAROM_STAGE_BOYSE));
+    CHECK_SAME(carom_replay_part_name(CAROM_REPLAY_STATE), carom_stage_name(CAROM_STAGE_COMMIT));
+    CHECK_SAME(carom_replay_part_name(-1), carom_stage_name(-1));
+    CHECK_SAME(carom_replay_part_name(CAROM_REPLAY_PARTS), carom_stage_name(-1));
+}
+
+/* However little memory the player has, it says so; with enough it plays to the end. */
+static void test_room(void)
+{
+    bool enough = false;
+
+    record_all(false, 1);
+    for (size_t bytes = 0; bytes <= sizeof room; bytes += 64) {
+        const int result = play_in(file_bytes, bytes);
+
+        CHECK(result == CAROM_ERR_MEMORY || result == CAROM_REPLAY_END);
+        CHECK(!enough || result == CAROM_REPLAY_END); /* more is never too little */
+        enough = result == CAROM_REPLAY_END;
+    }
+    CHECK(enough);
+}
+
 const struct test tests_replay[] = {
-    {"replay/same", test_same},
-    {"replay/cut", test_cut},
-    {"replay/altered", test_altered},
-    {"replay/named", test_named},
-    {"replay/others", test_others},
-    {"replay/middle", test_middle},
-    {0},
+    {"replay/same", test_same},       {"replay/cut", test_cut},
+    {"replay/altered", test_altered}, {"replay/named", test_named},
+    {"replay/others", test_others},   {"replay/middle", test_middle},
+    {"replay/null", test_null},       {"replay/unrecorded", test_unrecorded},
+    {"replay/note", test_note},       {"replay/player", test_player},
+    {"replay/room", test_room},       {0},
 };
