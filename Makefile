@@ -277,7 +277,7 @@ snapshots: ## save and load after each of FRAMES=600 frames of the matrix's scen
 	@$(SUBMAKE) BOARD=host build/host/matrix.elf
 	@tools/snapshots.py build/host/matrix.elf --frames $(FRAMES) $(if $(BIG),--big) $(if $(RECORD),--record)
 
-COVERAGE := $(patsubst build/host/%,build/host-covered/%,build/host/tests.elf $(HOST_TESTS) $(ACCURACY))
+COVERAGE := $(patsubst build/host/%,build/host-covered/%,build/host/tests.elf $(HOST_TESTS))
 coverage: ## lines, branches and MC/DC of src/ that the host tests run, to out/coverage; SHORT=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang-19
 	@$(SUBMAKE) BOARD=host COVERED=1 $(COVERAGE)
@@ -396,7 +396,7 @@ $(B)/flags: force
 	@echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' | cmp -s - $@ || \
 	    echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' > $@
 
-$(B)/src/%.o: private CFLAGS += -ffreestanding $(if $(COVERED),-w $(COUNTERS) -fcoverage-mapping -fcoverage-mcdc)
+$(B)/src/%.o: private CFLAGS += -ffreestanding $(if $(COVERED),-w $(COUNTERS) -fcoverage-mapping -fcoverage-mcdc -DDRAW_ALIGN)
 ifneq ($(COVERED),)
 # The engine only: the tests are what `make test` builds. Debian has no earlier clang with MC/DC.
 $(B)/src/%.o $(B)/%.elf: private TARGET_CC := clang-19

@@ -241,6 +241,93 @@ static void noticed(void)
     }
 }
 
+/* Each thing that a paint says is noticed, and each thing of the picture itself. */
+static void paints(void)
+{
+    enum { ALL = WIDTH * HEIGHT };
+    static uint32_t palette[2][16 * DRAW_SHADES];
+    const enum carom_draw_style style = CAROM_DRAW_FLAT;
+    const struct carom_camera camera = above;
+    struct carom_picture picture = new_picture();
+    struct carom_paint paint = {.ambient_q30 = CAROM_ONE_Q30 / 4};
+
+    picture = picture_of(buffers[0], CAROM_XRGB8888, sizeof scene_workspace);
+    for (int i = 0; i < 2; i++) {
+        for (uint32_t k = 0; k < 16 * DRAW_SHADES; k++) {
+            palette[i][k] = 0x10101 * (k / 2 + (uint32_t)i);
+        }
+    }
+    EXPECT_AREA(ALL, ALL);
+    picture.paint = &paint;
+    EXPECT_AREA(ALL, ALL);
+    paint.ambient_q30 = CAROM_ONE_Q30 / 8;
+    EXPECT_AREA(ALL, ALL);
+    paint.light = (carom_v3_q30){{1, 2, 3}};
+    EXPECT_AREA(ALL, ALL);
+    paint.palette = palette[0];
+    paint.ramps = 16;
+    EXPECT_AREA(ALL, ALL);
+    paint.ramps = 12;
+    EXPECT_AREA(ALL, ALL);
+    paint.palette = palette[1];
+    EXPECT_AREA(ALL, ALL);
+    paint.interfering_ramp = 9;
+    EXPECT_AREA(ALL, ALL);
+    paint.hide_interfering = true;
+    EXPECT_AREA(ALL, ALL);
+    paint.horizon = true;
+    EXPECT_AREA(ALL, ALL);
+    paint.shadows = &carom_shadows;
+    EXPECT_AREA(ALL, ALL);
+    paint.smooth = &carom_smooth;
+    EXPECT_AREA(ALL, ALL);
+    paint.crease_q30 = CAROM_ONE_Q30 / 2;
+    EXPECT_AREA(ALL, ALL);
+    picture.paint = NULL;
+    EXPECT_AREA(ALL, ALL);
+    picture.width -= 2;
+    EXPECT_AREA(ALL - 2 * HEIGHT, ALL - 2 * HEIGHT);
+    picture.format = CAROM_RGB565; /* in rows of the same length */
+    EXPECT_AREA(ALL - 2 * HEIGHT, ALL - 2 * HEIGHT);
+}
+
+/* Bodies turn without going anywhere, more of them than rectangles are kept; then a world of fewer bodies takes their place. */
+static void many(void)
+{
+    enum { ALL = WIDTH * HEIGHT };
+    static _Alignas(8) uint8_t mesh_block[CAROM_MESH_BYTES(8, 12)];
+    static int16_t corner[8][3] = BOX_CORNERS(2048, 2048, 2048);
+    const struct carom_mesh_raw raw = {
+        (const int16_t(*)[3])corner, box_faces, 8, 12, 15, CAROM_SOLID}; /* of 1/8: some 4 pixels */
+    const struct carom_config config = {.caps = CAROM_CAPS(SCENE_PILE_CAPS)};
+    const enum carom_draw_style style = CAROM_DRAW_FLAT;
+    const struct carom_camera camera = above;
+    struct carom_picture picture = picture_of(buffers[0], CAROM_PALETTE8, sizeof scene_workspace);
+    struct carom_body_state state;
+    struct carom_mesh tiny;
+
+    CHECK_EQ(carom_mesh_build(&tiny, &raw, mesh_block, sizeof mesh_block), CAROM_OK);
+    CHECK_EQ(carom_world_init(scene_world, sizeof scene_world, &config, &world_now_drawn),
+             CAROM_OK);
+    for (int i = 0; i < 12; i++) { /* 3 rows of 4, further apart than rectangles merge */
+        add(world_now_drawn, &tiny, at(Q32(3 * (i % 4) - 4, 3), Q32(i / 4 * 5 - 5, 4), 0), oblique,
+            true);
+    }
+    forget();
+    memset(buffers, 0, sizeof buffers);
+    EXPECT_AREA(ALL, ALL);
+    for (int i = 0; i < 12; i++) {
+        CHECK_EQ(carom_body_get(world_now_drawn, i, &state), CAROM_OK);
+        state.rotation = upright;
+        CHECK_EQ(carom_body_set(world_now_drawn, i, &state), CAROM_OK);
+    }
+    EXPECT_AREA(12 * 4, ALL);
+    world_now_drawn = new_world();
+    add(world_now_drawn, &cube, at(0, 0, 0), oblique, true);
+    EXPECT_AREA(20 * 20, 2 * ALL);
+    CHECK_EQ(drawn[0].count, 1);
+}
+
 /* A surface takes another shape; interfering faces come and go. */
 static void shapes_and_faces(void)
 {
@@ -341,6 +428,8 @@ static void errors(void)
 const struct test tests_draw_changes[] = {
     {"draw_changes/scenes", scenes},
     {"draw_changes/noticed", noticed},
+    {"draw_changes/paints", paints},
+    {"draw_changes/many", many},
     {"draw_changes/shapes_and_faces", shapes_and_faces},
     {"draw_changes/only_that", only_that},
     {"draw_changes/errors", errors},

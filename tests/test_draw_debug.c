@@ -177,6 +177,7 @@ static void velocities(void)
         state.velocity.c[k] = (k - 1) * ((int64_t)3 << 40) / 16;
     }
     CHECK_EQ(carom_body_set(world, 0, &state), CAROM_OK);
+    add(world, &plain, at(0, 0, 0), upright, false); /* which has none */
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_VELOCITIES, &debug), CAROM_OK);
     CHECK_EQ(record.lines, 1);
     for (int k = 0; k < 3; k++) {
@@ -248,6 +249,55 @@ static void touching(void)
     CHECK_EQ(record.of_colour[5 * DRAW_SHADES + 24], 12 - cube_hot);
 }
 
+/* A cube that lies on its top, on another cube: only those faces are hot, and a contact's line has any length that is asked for. */
+static void upside_down(void)
+{
+    static const carom_quat_q30 over = {{0, CAROM_ONE_Q30, 0, 0}};
+    const carom_v3_q40 gravity = {{0, 0, -((int64_t)1 << 30)}};
+    struct carom_world *world = new_world();
+    struct carom_debug debug = all_of();
+    const struct carom_face_ref *refs;
+    struct carom_body_state state;
+    int n, hot, cube_hot = 0;
+
+    add(world, &cube, at(0, 0, 0), upright, false);
+    add(world, &cube, at(Q32(1, 4), Q32(1, 8), Q32(1001, 1000)), over, true);
+    CHECK_EQ(carom_world_set_gravity(world, &gravity), CAROM_OK);
+    for (int i = 0; i < 30; i++) {
+        CHECK_AT_LEAST(carom_world_step(world), 0);
+    }
+    n = carom_contacts(world, contacts, 32);
+    CHECK_AT_LEAST(n, 3);
+    CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_CONTACTS, &debug), CAROM_OK);
+    CHECK_NEAR(length2_q20(0), 3 << 16, 64); /* both have this radius */
+    debug = all_of();
+    debug.size_q32 = Q32(2, 1);
+    debug.point = NULL;
+    CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_CONTACTS, &debug), CAROM_OK);
+    CHECK_EQ(record.points, 0);
+    CHECK_EQ(record.lines, n);
+    CHECK_NEAR(length2_q20(0), 4 << 20, 64);
+    hot = carom_interfering_faces(world, &refs);
+    for (int i = 0; i < hot; i++) {
+        if (refs[i].body == 1) {
+            CHECK_AT_LEAST(cube.faces[refs[i].face].normal.c[2], 0); /* its top or a side */
+            cube_hot++;
+        }
+    }
+    CHECK_MORE(cube_hot, 0);
+    CHECK_EQ(carom_body_remove(world, 0), CAROM_OK); /* the triangles of one body are counted */
+    debug = all_of();
+    debug.triangle = NULL;
+    CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_INTERFERING, &debug), CAROM_OK);
+    CHECK_EQ(record.triangles, 0);
+    debug = all_of();
+    CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
+    centre = state.position;
+    CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_INTERFERING, &debug), CAROM_OK);
+    CHECK_EQ(record.triangles, cube_hot);
+    CHECK_EQ(record.of_colour[DRAW_MOVING_HOT * DRAW_SHADES + 24], cube_hot);
+}
+
 /* Lines that a caller keeps are the lines of a picture. */
 static void kept(void)
 {
@@ -263,11 +313,12 @@ static void kept(void)
     CHECK_EQ(room[2].colour, CAROM_COLOUR_BLUE);
     CHECK_EQ(memcmp(&room[0].from, &centre, sizeof centre), 0);
     carom_debug_keep_line(&lines, &centre, &out, 0);
+    carom_debug_keep_line(&lines, &out, &centre, 0);
     CHECK_EQ(lines.count, 3);
-    CHECK_EQ(lines.lost, 1);
+    CHECK_EQ(lines.lost, 2);
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_BOXES, &debug), CAROM_OK);
     CHECK_EQ(lines.count, 10);
-    CHECK_EQ(lines.lost, 1 + 3 + 12 - 10);
+    CHECK_EQ(lines.lost, 2 + 3 + 12 - 10);
 }
 
 static void errors(void)
@@ -286,6 +337,8 @@ static void errors(void)
     debug.contact_room = 0;
     debug.size_q32 = -1;
     CHECK_EQ(carom_debug_draw(world, 1, &debug), CAROM_ERR_ARGUMENT);
+    debug.size_q32 = Q32(256, 1) + 1;
+    CHECK_EQ(carom_debug_draw(world, 1, &debug), CAROM_ERR_ARGUMENT);
     debug.size_q32 = 0;
     debug.paint = &paint;
     CHECK_EQ(carom_debug_draw(world, 1, &debug), CAROM_ERR_ARGUMENT);
@@ -295,11 +348,8 @@ static void errors(void)
 }
 
 const struct test tests_draw_debug[] = {
-    {"draw_debug/one_body", one_body},
-    {"draw_debug/axes", axes},
-    {"draw_debug/velocities", velocities},
-    {"draw_debug/touching", touching},
-    {"draw_debug/kept", kept},
-    {"draw_debug/errors", errors},
-    {0},
+    {"draw_debug/one_body", one_body},       {"draw_debug/axes", axes},
+    {"draw_debug/velocities", velocities},   {"draw_debug/touching", touching},
+    {"draw_debug/upside_down", upside_down}, {"draw_debug/kept", kept},
+    {"draw_debug/errors", errors},           {0},
 };

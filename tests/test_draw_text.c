@@ -278,7 +278,9 @@ static void errors(void)
     CHECK_EQ(carom_draw_text(&picture, &where, "III", NULL), error)
     EXPECT_TEXT(CAROM_ERR_ARGUMENT, where.scale = 65);
     EXPECT_TEXT(CAROM_ERR_ARGUMENT, where.x = 16385);
+    EXPECT_TEXT(CAROM_ERR_ARGUMENT, where.x = -16385);
     EXPECT_TEXT(CAROM_ERR_ARGUMENT, where.y = -16385);
+    EXPECT_TEXT(CAROM_ERR_ARGUMENT, where.y = 16385);
     EXPECT_TEXT(CAROM_ERR_ARGUMENT, where.colour = 256);
     EXPECT_TEXT(CAROM_ERR_ARGUMENT, (where.opaque = true, where.paper = 256));
     picture.row = row_of;

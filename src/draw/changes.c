@@ -205,12 +205,11 @@ static void see_lines(const struct changes *c, struct carom_drawn *drawn)
 
 /* ------------------------------------------------------------------- picture */
 
-/* True if two paints, either of which may be NULL, agree except in lines and bodies' ramps. */
+/* True if a picture's paint, which may be NULL, agrees with the one before except in lines and bodies' ramps. */
 static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
 {
     static const struct carom_paint none = {0};
 
-    a = a ? a : &none;
     b = b ? b : &none;
     return a->palette == b->palette && draw_ramps(a) == draw_ramps(b) &&
            a->hide_interfering == b->hide_interfering &&

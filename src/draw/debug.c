@@ -154,10 +154,11 @@ static void hand_velocity(const struct scribe *s, const struct carom_world *worl
 {
     struct carom_body_state state;
 
-    if (s->look.moving && carom_body_get(world, (int)number, &state) == CAROM_OK) {
+    if (s->look.moving) {
         carom_v3_q32 to;
 
-        for (int k = 0; k < 3; k++) { /* velocities are below 64 units: 2^46 */
+        (void)carom_body_get(world, (int)number, &state); /* there is one: it was looked at */
+        for (int k = 0; k < 3; k++) {                     /* velocities are below 64 units: 2^46 */
             to.c[k] = s->look.position.c[k] + (state.velocity.c[k] * FRAMES_AHEAD >> (40 - 32));
         }
         line(s, &s->look.position, &to, CAROM_COLOUR_CYAN);

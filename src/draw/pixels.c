@@ -103,7 +103,7 @@ void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t 
             *first = (uint8_t)((*first & 0xf0) | (pixel & 0x0f));
             from++;
         }
-        if (to & 1 && from <= to) {
+        if (to & 1) {
             *last = (uint8_t)((*last & 0x0f) | (pixel & 0xf0));
         }
     }

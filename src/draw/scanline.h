@@ -141,9 +141,11 @@ void draw_overlap(struct draw_sweep *s, struct draw_span *span);
  * Stores of 2 and 4 bytes into memory of any type. Where the processor can store words at odd
  * addresses the types may lie there. Elsewhere a compiler would make four byte stores of one, so
  * runs are written as their ends allow. Pixels of two or four bytes are never written by single
- * bytes: some machines' video memory does not take that.
+ * bytes: some machines' video memory does not take that. DRAW_ALIGN asks for the second way where
+ * the first would do, so that a test on any processor can run it.
  */
-#if defined __ARM_FEATURE_UNALIGNED || defined __i386__ || defined __x86_64__
+#if !defined DRAW_ALIGN &&                                                                         \
+    (defined __ARM_FEATURE_UNALIGNED || defined __i386__ || defined __x86_64__)
 #define DRAW_ANYWHERE 1
 #define DRAW_ALIGNED  aligned(1)
 #else
