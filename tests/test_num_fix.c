@@ -453,7 +453,7 @@ static void test_mul_scaled(void)
     for (int n = 0; n < CASES; n++) {
         struct fix_scaled s =
             fix_scale(random_size(&r, 40) | 1, (int)test_random_range(&r, 0, 120));
-        int64_t v = random_size(&r, 62), result;
+        int64_t v = random_size(&r, 62), result, three[3];
         struct fix_wide p = fix_wide_mul(v, s.m), error;
         int more = s.e > 62 ? s.e - 62 : 0;
 
@@ -461,6 +461,10 @@ static void test_mul_scaled(void)
             continue;
         }
         result = fix_mul_scaled(v, s);
+        fix_mul_scaled3(three, (const int64_t[3]){v, 0, v}, s);
+        CHECK_EQ(three[0], result);
+        CHECK_EQ(three[1], 0);
+        CHECK_EQ(three[2], result);
         if (s.e < 1) {
             CHECK_EQ(carom_shl(v * s.m, -s.e), result);
         } else if (s.e > 124) {

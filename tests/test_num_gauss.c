@@ -4,9 +4,9 @@
 #include "lib/test.h"
 
 #ifdef TEST_LONG
-enum { EXACT_CASES = 20000, DOUBLE_CASES = 20000 };
+enum { EXACT_CASES = 20000, DOUBLE_CASES = 20000, WILD_CASES = 60000 };
 #else
-enum { EXACT_CASES = 20, DOUBLE_CASES = 3 };
+enum { EXACT_CASES = 20, DOUBLE_CASES = 3, WILD_CASES = 30 };
 #endif
 
 static struct gauss w;
@@ -405,6 +405,54 @@ static void add(void)
     CHECK_EQ(gauss_add(&w, 3, b_q10), -1);
 }
 
+/* What a row lacks of its right side, against the largest term in it. */
+static void check_row(int n, int row)
+{
+    double lacks = -(double)system_in[row][n], most = 0;
+
+    for (int j = 0; j < n; j++) {
+        const double term = (double)system_in[row][j] * ((double)w.x_q40[j] / ((int64_t)1 << 40));
+
+        lacks += term;
+        most = term > most ? term : -term > most ? -term : most;
+    }
+    /* one entry in the last place of each unknown besides: 2^30 * 2^-40 */
+    CHECK_LESS(lacks < 0 ? -lacks : lacks, most / (1 << 12) + n / 512.0 + 1);
+}
+
+/* Entries of any size, so that many a system is hopeless: it is refused, or its answer fits the rows. */
+static void wild(void)
+{
+    struct test_random r = {17};
+    int64_t b_q10[GAUSS_MAX];
+    int solved = 0, refused = 0, added = 0;
+
+    for (int n = 0; n < WILD_CASES; n++) {
+        const int size = n % 3 == 0 ? 3 : n % 3 == 1 ? 9 : 15, least = n / 3 % 30;
+
+        for (int i = 0; i < size; i++) {
+            for (int j = 0; j <= size; j++) {
+                const int64_t most = (int64_t)1 << test_random_range(&r, least, 29);
+
+                system_in[i][j] = (int32_t)test_random_range(&r, -most, most);
+            }
+            b_q10[i] = test_random_range(&r, -((int64_t)1 << (n % 32)), (int64_t)1 << (n % 32));
+        }
+        if (solve(size) != 0) {
+            refused++;
+            continue;
+        }
+        solved++;
+        for (int i = 0; i < size; i++) {
+            check_row(size, i);
+        }
+        added += gauss_add(&w, size, b_q10) == 0;
+    }
+    CHECK_MORE(solved, WILD_CASES / 4);
+    CHECK_MORE(added, WILD_CASES / 8);
+    CHECK_MORE(refused, 0);
+}
+
 const struct test tests_num_gauss[] = {{"num_gauss/hand_cases", hand_cases},
                                        {"num_gauss/permuted_rows", permuted_rows},
                                        {"num_gauss/row_scale", row_scale},
@@ -414,4 +462,5 @@ const struct test tests_num_gauss[] = {{"num_gauss/hand_cases", hand_cases},
                                        {"num_gauss/singular", singular},
                                        {"num_gauss/range", range},
                                        {"num_gauss/add", add},
+                                       {"num_gauss/wild", wild},
                                        {0}};
