@@ -775,6 +775,16 @@ static void test_vertex_on_edge(void)
     }
 }
 
+/* The product of two coefficients of friction is limited as each of them is. */
+static void test_product(void)
+{
+    const struct contact_list mixed = {.friction_rule = CAROM_PRODUCT};
+
+    CHECK_EQ(contact_mix_friction(&mixed, 1 << 15, 1 << 15), 1 << 14);
+    CHECK_EQ(contact_mix_friction(&mixed, 2 << 16, 2 << 16), CAROM_MU_MAX_Q16);
+    CHECK_EQ(contact_mix_friction(&mixed, 3 << 16, 2 << 16), CAROM_MU_MAX_Q16);
+}
+
 const struct test tests_contact[] = {
     {"contact/flat", test_flat},
     {"contact/tilted", test_tilted},
@@ -791,5 +801,6 @@ const struct test tests_contact[] = {
     {"contact/force", test_force},
     {"contact/vertex_on_vertex", test_vertex_on_vertex},
     {"contact/vertex_on_edge", test_vertex_on_edge},
+    {"contact/product", test_product},
     {0},
 };

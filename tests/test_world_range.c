@@ -134,9 +134,41 @@ static void test_thin_spin(void)
     }
 }
 
+/* A box of half a thousandth of a unit, near the smallest radius, falls on a plane and comes to rest on its largest side. */
+static void test_smallest(void)
+{
+    enum { HALF_Q20 = 200 };
+    const struct carom_config config = {
+        .caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -(ONE >> 20)}}, .sleep = true};
+    const int64_t skin_q32 = (int64_t)256 << 10, lies_q32 = (int64_t)HALF_Q20 << 12;
+    struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true};
+    struct carom_body_state s;
+    struct carom_world *w = NULL;
+
+    shape_box(&box, 20, 600, 500, 2 * HALF_Q20);
+    shape_plane(&ground, 12, 1, 16384);
+    CHECK_AT_MOST(box.mesh.radius_q22, 1 << 11);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &w), CAROM_OK);
+    def.friction_q16 = 1 << 15;
+    CHECK_EQ(carom_body_add(w, &def), 0);
+    def.mesh = &box.mesh;
+    def.stationary = false;
+    def.mass_q20 = 1 << 20;
+    def.position.c[2] = 3 * lies_q32;
+    CHECK_EQ(carom_body_add(w, &def), 1);
+    for (int frame = 0; frame < 400; frame++) {
+        CHECK_EQ(carom_world_step(w), CAROM_OK);
+    }
+    CHECK_EQ(carom_body_get(w, 1, &s), CAROM_OK);
+    CHECK(s.asleep);
+    CHECK_MORE(s.position.c[2], lies_q32);
+    CHECK_LESS(s.position.c[2], lies_q32 + 2 * skin_q32);
+}
+
 const struct test tests_world_range[] = {
     {"world_range/thin_spin", test_thin_spin},
     {"world_range/merged_contacts", test_merged_contacts},
     {"world_range/slice_ends", test_slice_ends},
+    {"world_range/smallest", test_smallest},
     {0},
 };
