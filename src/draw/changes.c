@@ -205,7 +205,7 @@ static void see_lines(const struct changes *c, struct carom_drawn *drawn)
 
 /* ------------------------------------------------------------------- picture */
 
-/* True if a picture's paint, which may be NULL, agrees with the one before except in lines and bodies' ramps. */
+/* True if a paint b, which may be NULL, agrees with the one before but for lines and bodies' ramps. */
 static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
 {
     static const struct carom_paint none = {0};
