@@ -450,7 +450,7 @@ static void wild(void)
     }
     CHECK_MORE(solved, WILD_CASES / 4);
     CHECK_MORE(added, WILD_CASES / 8);
-    CHECK_MORE(refused, 0);
+    CHECK_AT_LEAST(refused, WILD_CASES / 50000); /* 30 cases may have none */
 }
 
 const struct test tests_num_gauss[] = {{"num_gauss/hand_cases", hand_cases},
