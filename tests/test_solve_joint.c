@@ -560,6 +560,33 @@ static void test_refuses(void)
     step(2);
 }
 
+/* To set the drive that a joint has wakes nobody, whatever lies between the members of the caller's structure. */
+static void test_set_again(void)
+{
+    const struct carom_config config = {
+        .caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -ONE / 256}}, .sleep = true};
+    struct carom_joint_def j = joint(CAROM_JOINT_HINGE, 0, CAROM_WORLD, 0, 0, UNIT);
+    struct carom_joint_drive drive;
+
+    setup(0);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
+    add(0, 0, 0);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    for (int i = 0; i < 100 && !state_of(0).asleep; i++) {
+        step(1);
+    }
+    CHECK(state_of(0).asleep);
+    memset(&drive, 0xff, sizeof drive);
+    drive.limited = drive.motor = drive.spring = false;
+    drive.lower_q32 = drive.upper_q32 = drive.motor_speed_q40 = drive.motor_most_q40 = 0;
+    drive.rest_q32 = drive.stiffness_q40 = drive.damping_q40 = 0;
+    CHECK_EQ(carom_joint_set(world, 0, &drive), CAROM_OK);
+    CHECK(state_of(0).asleep);
+    drive.limited = true;
+    CHECK_EQ(carom_joint_set(world, 0, &drive), CAROM_OK);
+    CHECK(!state_of(0).asleep);
+}
+
 const struct test tests_solve_joint[] = {
     {"solve_joint/hangs", test_hangs},
     {"solve_joint/pendulum", test_pendulum},
@@ -575,5 +602,6 @@ const struct test tests_solve_joint[] = {
     {"solve_joint/breaks", test_breaks},
     {"solve_joint/snapshot", test_snapshot},
     {"solve_joint/refuses", test_refuses},
+    {"solve_joint/set_again", test_set_again},
     {0},
 };

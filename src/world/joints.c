@@ -187,6 +187,16 @@ int carom_joint_remove(struct carom_world *w, int joint)
     return result;
 }
 
+/* What lies between the members of a caller's drive means nothing. */
+static bool same_drive(const struct carom_joint_drive *a, const struct carom_joint_drive *b)
+{
+    return a->limited == b->limited && a->lower_q32 == b->lower_q32 &&
+           a->upper_q32 == b->upper_q32 && a->motor == b->motor &&
+           a->motor_speed_q40 == b->motor_speed_q40 && a->motor_most_q40 == b->motor_most_q40 &&
+           a->spring == b->spring && a->rest_q32 == b->rest_q32 &&
+           a->stiffness_q40 == b->stiffness_q40 && a->damping_q40 == b->damping_q40;
+}
+
 int carom_joint_set(struct carom_world *w, int joint, const struct carom_joint_drive *drive)
 {
     struct joint_state *state;
@@ -203,7 +213,7 @@ int carom_joint_set(struct carom_world *w, int joint, const struct carom_joint_d
         return result;
     }
     state = &w->now->joints[joint];
-    if (memcmp(&state->drive, drive, sizeof *drive) != 0) {
+    if (!same_drive(&state->drive, drive)) {
         state->drive = *drive;
         world_wake_joint(w, &w->rest.joints.joints[joint]);
     }
