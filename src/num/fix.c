@@ -297,6 +297,7 @@ int64_t fix_length(const int64_t v[3])
     for (int k = 0; k < 3; k++) {
         int64_t c = v[k] >> shift;
 
+        CAROM_ASSERT(c >= -((int64_t)1 << 30) && c <= (int64_t)1 << 30);
         sum += (uint64_t)(c * c); /* |c| <= 2^30: the sum is at most 3 * 2^60 */
     }
     root = fix_sqrt(sum);
@@ -315,6 +316,7 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3])
 
     for (int k = 0; k < 3; k++) {
         c[k] = fix_shift(v[k], -shift);
+        CAROM_ASSERT(c[k] >= -((int64_t)1 << 31) && c[k] <= (int64_t)1 << 31);
         sum += (uint64_t)(c[k] * c[k]); /* |c| <= 2^31: the sum is at most 3 * 2^62 < 2^64 */
     }
     if (sum == 0) {

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A number becomes a mantissa of 30 bits, 2^29 <= |m| < 2^30, and an exponent: m 2^-e is within half of the last place.
+ *
+ * bound: all numbers
+ * mutant: src/num/fix.c: if (magnitude >> 30) -> if (magnitude >> 31)
+ */
+#include "proof.h"
+#include "num/fix.c"
+
+void proof(void)
+{
+    int64_t v = proof_word();
+    struct fix_scaled s = fix_scale(v, 40);
+    int up = 40 - s.e;
+
+    if (v == 0) {
+        proof_check(s.m == 0);
+        return;
+    }
+    proof_check(fix_bits32((uint32_t)(s.m < 0 ? -s.m : s.m)) == 30 && (s.m < 0) == (v < 0));
+    proof_check(up >= -29 && up <= 34);
+    if (up <= 0) {
+        proof_check((wide)v << 0 == (s.m >> -up) && (wide)(s.m >> -up) * ((wide)1 << -up) == s.m);
+    } else {
+        wide apart = s.m * ((wide)1 << up) - v, half = (wide)1 << (up - 1);
+
+        proof_check(-half <= apart && apart <= half);
+    }
+}
