@@ -155,7 +155,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics faults worst soak coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics proof analysis faults worst soak coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -260,6 +260,13 @@ soak: ## run random worlds under an independent checker, to out/soak.csv and doc
 	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs) $(if $(KEEP),--keep)
 
 SECONDS ?= 60
+proof: ## prove the programs of tests/proof for all inputs, to out/proof.csv and docs/evidence.md; SHORT=1 is what CI runs
+	@tools/need python3 z3 cvc5 clang-19 cc libc
+	@tools/proof.py $(if $(SHORT),--short) $(NAMES)
+
+analysis: ## gcc -fanalyzer, clang-tidy, cppcheck with MISRA, the newest compilers; to docs/evidence.md; SHORT=1 is what CI runs
+	@tools/analysis.py $(if $(SHORT),--short)
+
 fuzz: ## libFuzzer over calls, questions, pictures, snapshots, recordings, meshes, with sanitizers; SECONDS=60 in all or N= runs each, TARGETS=calls,draw RECORD=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang llvm
 	@$(SUBMAKE) BOARD=host DEBUG=1 FUZZ=1 COMPILER=clang build/host-debug-fuzz/fuzz.elf

@@ -26,7 +26,8 @@ void proof(void)
             proof_check(a.used > size);
             continue;
         }
-        proof_check(place == (uint8_t *)block + before && before % 8 == 0 && a.used >= before + bytes && a.used <= size);
+        proof_check(place == (uint8_t *)block + before && before % 8 == 0 &&
+                    a.used >= before + bytes && a.used <= size);
         before = a.used;
     }
 }

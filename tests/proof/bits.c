@@ -11,7 +11,8 @@
 
 static bool has(unsigned __int128 v, int bits)
 {
-    return bits >= 0 && bits <= 128 && (bits == 128 || v >> bits == 0) && (bits == 0 ? v == 0 : v >> (bits - 1) == 1);
+    return bits >= 0 && bits <= 128 && (bits == 128 || v >> bits == 0) &&
+           (bits == 0 ? v == 0 : v >> (bits - 1) == 1);
 }
 
 void proof(void)

@@ -24,7 +24,8 @@ void proof(void)
     bits = fix_bits3(v);
     wide_bits = fix_wide_bits3(a);
     for (int k = 0; k < 3; k++) {
-        proof_check(fix_bits((uint64_t)carom_abs(v[k])) <= bits && fix_wide_bits(&a[k]) <= wide_bits);
+        proof_check(fix_bits((uint64_t)carom_abs(v[k])) <= bits &&
+                    fix_wide_bits(&a[k]) <= wide_bits);
         reached = reached || fix_bits((uint64_t)carom_abs(v[k])) == bits;
         wide_reached = wide_reached || fix_wide_bits(&a[k]) == wide_bits;
     }

@@ -16,7 +16,9 @@ void proof(void)
     for (int k = 0; k < 3; k++) {
         v[k] = proof_range(-(1LL << 61), 1LL << 61);
         d[k] = (int32_t)proof_range(-CAROM_ONE_Q30, CAROM_ONE_Q30);
-        sum += ((wide)(v[k] >> 32) * d[k] * ((wide)1 << 32) + (wide)(uint32_t)v[k] * d[k] + (1 << 29)) >> 30;
+        sum += ((wide)(v[k] >> 32) * d[k] * ((wide)1 << 32) + (wide)(uint32_t)v[k] * d[k] +
+                (1 << 29)) >>
+               30;
     }
     proof_assume(sum <= INT64_MAX && sum >= INT64_MIN);
     proof_check(fix_dot_q30(v, d) == sum);

@@ -29,7 +29,8 @@ static bool right_on_diagonal(int32_t d)
     int64_t off;
 
     g.a[0][0] = d;
-    if (invert_diagonal(&g, 1) != 0 || fix_abs32(g.a[0][0]) > CAROM_ONE_Q30 || g.inverse_shift[0] != 0) {
+    if (invert_diagonal(&g, 1) != 0 || fix_abs32(g.a[0][0]) > CAROM_ONE_Q30 ||
+        g.inverse_shift[0] != 0) {
         return false;
     }
     off = (int64_t)g.a[0][0] * d - ((int64_t)1 << 59);
@@ -47,10 +48,12 @@ static bool right_when_scaled(int32_t m)
 
 int main(int count, char **words)
 {
-    const int32_t from = count > 2 ? atoi(words[1]) : 1 << 15, to = count > 2 ? atoi(words[2]) : 1 << 16;
+    const int32_t from = count > 2 ? atoi(words[1]) : 1 << 15,
+                  to = count > 2 ? atoi(words[2]) : 1 << 16;
 
     for (int64_t m = (int64_t)from << 14; m < (int64_t)to << 14; m++) {
-        if (!right_on_diagonal((int32_t)m) || !right_on_diagonal((int32_t)-m) || !right_when_scaled((int32_t)m)) {
+        if (!right_on_diagonal((int32_t)m) || !right_on_diagonal((int32_t)-m) ||
+            !right_when_scaled((int32_t)m)) {
             printf("wrong at %d\n", (int)m);
             return 1;
         }

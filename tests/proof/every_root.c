@@ -30,19 +30,22 @@ static uint64_t guess(uint64_t v)
 {
     uint32_t high = sqrt32((uint32_t)(v >> 32));
 
-    return ((uint32_t)((v - ((uint64_t)(high * high) << 32)) >> 17) / high) + ((uint64_t)high << 16);
+    return ((uint32_t)((v - ((uint64_t)(high * high) << 32)) >> 17) / high) +
+           ((uint64_t)high << 16);
 }
 
 static bool right(uint64_t root)
 {
     const uint64_t least = root * root, most = least + 2 * root;
 
-    return fix_sqrt(least) == root && fix_sqrt(most) == root && guess(least) >= root && guess(most) <= root + 2;
+    return fix_sqrt(least) == root && fix_sqrt(most) == root && guess(least) >= root &&
+           guess(most) <= root + 2;
 }
 
 int main(int count, char **words)
 {
-    const uint32_t from = (uint32_t)(count > 2 ? atoi(words[1]) : 1 << 15), to = (uint32_t)(count > 2 ? atoi(words[2]) : 1 << 16);
+    const uint32_t from = (uint32_t)(count > 2 ? atoi(words[1]) : 1 << 15),
+                   to = (uint32_t)(count > 2 ? atoi(words[2]) : 1 << 16);
 
     for (uint32_t high = from; high < to; high++) {
         for (uint32_t v = high * high; v - high * high <= 2 * high; v++) {

@@ -21,6 +21,8 @@ void proof(void)
     proof_check(best >= -1 && best < 3);
     proof_check(best < 0 || (g.step[best] < 0 && fix_abs32(g.a[best][1]) >= SMALLEST_PIVOT));
     for (int i = 0; i < 3; i++) {
-        proof_check(g.step[i] >= 0 || fix_abs32(g.a[i][1]) <= (best < 0 ? SMALLEST_PIVOT : fix_abs32(g.a[best][1]) + 1));
+        proof_check(g.step[i] >= 0 ||
+                    fix_abs32(g.a[i][1]) <=
+                        (best < 0 ? SMALLEST_PIVOT : fix_abs32(g.a[best][1]) + 1));
     }
 }

@@ -26,7 +26,8 @@ void proof(void)
     for (int i = 0; i < 2; i++) {
         proof_check(g.up[i] <= 29 && g.residual[i] == in[i][2] * ((int64_t)1 << g.up[i]));
         for (int j = 0; j < 2; j++) {
-            proof_check(g.a[i][j] == in[i][j] * ((int64_t)1 << g.up[i]) && fix_abs32(g.a[i][j]) <= CAROM_ONE_Q30);
+            proof_check(g.a[i][j] == in[i][j] * ((int64_t)1 << g.up[i]) &&
+                        fix_abs32(g.a[i][j]) <= CAROM_ONE_Q30);
         }
         proof_check((fix_abs32(g.a[i][0]) | fix_abs32(g.a[i][1])) >= 1 << 29);
     }

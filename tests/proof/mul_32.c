@@ -9,7 +9,8 @@
 
 void proof(void)
 {
-    int32_t a = (int32_t)proof_range(-INT32_MAX, INT32_MAX), b = (int32_t)proof_range(-CAROM_ONE_Q30, CAROM_ONE_Q30);
+    int32_t a = (int32_t)proof_range(-INT32_MAX, INT32_MAX),
+            b = (int32_t)proof_range(-CAROM_ONE_Q30, CAROM_ONE_Q30);
     wide apart = (wide)carom_mul_q30(a, b) * ((wide)1 << 30) - (wide)a * b;
 
     proof_check(apart > -(1 << 29) && apart <= 1 << 29);

@@ -10,7 +10,8 @@
 
 void proof(void)
 {
-    struct fix_scaled s = {(int32_t)proof_range(-(1 << 30) + 1, (1 << 30) - 1), (int32_t)proof_range(1, 90)};
+    struct fix_scaled s = {(int32_t)proof_range(-(1 << 30) + 1, (1 << 30) - 1),
+                           (int32_t)proof_range(1, 90)};
     struct fix_scaled up = {s.m, (int32_t)proof_range(-3, 0)};
     int64_t v[3], out[3], small = proof_range(-(1 << 29), 1 << 29);
 

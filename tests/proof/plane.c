@@ -34,6 +34,7 @@ void proof(void)
     side[1] = plane_side(b, c, p);
     side[2] = plane_side(c, a, p);
     over = plane_over(a, b, c, p);
-    proof_check(over == (side[0] == side[1] && side[1] == side[2] ? side[0] : 0) && side[0] >= -1 && side[0] <= 1);
+    proof_check(over == (side[0] == side[1] && side[1] == side[2] ? side[0] : 0) && side[0] >= -1 &&
+                side[0] <= 1);
     proof_check(!(plane_outside(edge, off, reach, true) && plane_outside(edge, off, reach, false)));
 }

@@ -18,9 +18,11 @@ void proof(void)
     proof_assume(p.used <= p.size && p.peak >= p.used && p.peak <= p.size);
     place = pool_take(&p);
     if (was.used == was.size) {
-        proof_check(place == -1 && p.refused == was.refused + 1 && p.used == was.used && p.peak == was.peak);
+        proof_check(place == -1 && p.refused == was.refused + 1 && p.used == was.used &&
+                    p.peak == was.peak);
     } else {
-        proof_check(place == (int32_t)was.used && p.used == was.used + 1 && p.refused == was.refused);
+        proof_check(place == (int32_t)was.used && p.used == was.used + 1 &&
+                    p.refused == was.refused);
         proof_check(p.peak == (was.peak > p.used ? was.peak : p.used) && p.peak <= p.size);
     }
     pool_clear(&p);

@@ -10,7 +10,8 @@
 
 void proof(void)
 {
-    struct fix_wide a = {proof_word(), (uint64_t)proof_word()}, b = {proof_word(), (uint64_t)proof_word()}, none = {0, 0};
+    struct fix_wide a = {proof_word(), (uint64_t)proof_word()},
+                    b = {proof_word(), (uint64_t)proof_word()}, none = {0, 0};
     int64_t small = proof_word();
 
     proof_assume(fix_wide_sign(&b) != 0 && small != 0);

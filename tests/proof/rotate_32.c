@@ -32,8 +32,10 @@ void proof(void)
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
 
-        proof_check(nearest(forth[i], (wide)m.c[i][0] * a[0] + (wide)m.c[i][1] * a[1] + (wide)m.c[i][2] * a[2]));
-        proof_check(nearest(back[i], (wide)m.c[0][i] * a[0] + (wide)m.c[1][i] * a[1] + (wide)m.c[2][i] * a[2]));
+        proof_check(nearest(forth[i], (wide)m.c[i][0] * a[0] + (wide)m.c[i][1] * a[1] +
+                                          (wide)m.c[i][2] * a[2]));
+        proof_check(nearest(back[i], (wide)m.c[0][i] * a[0] + (wide)m.c[1][i] * a[1] +
+                                         (wide)m.c[2][i] * a[2]));
         proof_check(nearest(cross[i], (wide)m.c[0][j] * a[k] - (wide)m.c[0][k] * a[j]));
     }
 }

@@ -35,7 +35,9 @@ void proof(void)
     fix_rotate(forth, &m, forth);
     fix_rotate_back(back, &m, back);
     for (int i = 0; i < 3; i++) {
-        proof_check(near(forth[i], part(v[0], m.c[i][0]) + part(v[1], m.c[i][1]) + part(v[2], m.c[i][2])));
-        proof_check(near(back[i], part(v[0], m.c[0][i]) + part(v[1], m.c[1][i]) + part(v[2], m.c[2][i])));
+        proof_check(
+            near(forth[i], part(v[0], m.c[i][0]) + part(v[1], m.c[i][1]) + part(v[2], m.c[i][2])));
+        proof_check(
+            near(back[i], part(v[0], m.c[0][i]) + part(v[1], m.c[1][i]) + part(v[2], m.c[2][i])));
     }
 }

@@ -11,9 +11,12 @@
 
 void proof(void)
 {
-    int64_t high = proof_range(-(1LL << 62) + 1, (1LL << 62) - 1), low = proof_range(-(1LL << 61) + 1, (1LL << 61) - 1);
+    int64_t high = proof_range(-(1LL << 62) + 1, (1LL << 62) - 1),
+            low = proof_range(-(1LL << 61) + 1, (1LL << 61) - 1);
     wide sum = high * ((wide)1 << 30) + low;
-    wide expected = CASE < 1 ? sum * ((wide)1 << (CASE < 0 ? -CASE : 0)) : (sum + ((wide)1 << (CASE > 0 ? CASE - 1 : 0))) >> (CASE > 0 ? CASE : 0);
+    wide expected = CASE < 1
+                        ? sum * ((wide)1 << (CASE < 0 ? -CASE : 0))
+                        : (sum + ((wide)1 << (CASE > 0 ? CASE - 1 : 0))) >> (CASE > 0 ? CASE : 0);
 
     proof_assume(expected >= INT64_MIN && expected <= INT64_MAX);
     proof_check(fix_round_parts(high, low, 30, CASE) == expected);

@@ -12,7 +12,8 @@
 void proof(void)
 {
     int64_t limit = CASE < 23 ? 1LL << (39 + CASE) : 1LL << 62;
-    int64_t v = proof_range(-limit + 1, limit - 1), scale = proof_range(-(1 << 23) + 1, (1 << 23) - 1);
+    int64_t v = proof_range(-limit + 1, limit - 1),
+            scale = proof_range(-(1 << 23) + 1, (1 << 23) - 1);
     int64_t whole = v >> CASE, rest = v & ((1LL << CASE) - 1);
     wide product = (wide)whole * scale * ((wide)1 << CASE) + (wide)rest * scale;
 

@@ -18,5 +18,6 @@ void proof(void)
     proof_assume(low <= high && i < count);
     touched(low, high, CASE, count, &first, &end);
     proof_check(first >= 0 && end <= count);
-    proof_check((i >= first && i < end) == (i * ((int64_t)1 << CASE) <= high && (i + 1) * ((int64_t)1 << CASE) >= low));
+    proof_check((i >= first && i < end) ==
+                (i * ((int64_t)1 << CASE) <= high && (i + 1) * ((int64_t)1 << CASE) >= low));
 }

@@ -21,6 +21,7 @@ void proof(void)
     for (int k = 0; k < 3; k++) {
         proof_check(fix_largest(v) >= v[k] && fix_largest(v) >= -v[k]);
     }
-    proof_check(fix_largest(v) == fix_abs32(v[0]) || fix_largest(v) == fix_abs32(v[1]) || fix_largest(v) == fix_abs32(v[2]));
+    proof_check(fix_largest(v) == fix_abs32(v[0]) || fix_largest(v) == fix_abs32(v[1]) ||
+                fix_largest(v) == fix_abs32(v[2]));
     proof_check(fix_next(axis) == (axis + 1) % 3);
 }

@@ -36,6 +36,7 @@ void proof(void)
         for (j = 0; j < 3; j++) {
             full[i][j] = m[fix_sym3_at[i][j]];
         }
-        proof_check(moved[i] == (wide)full[i][0] * c[0] + (wide)full[i][1] * c[1] + (wide)full[i][2] * c[2]);
+        proof_check(moved[i] ==
+                    (wide)full[i][0] * c[0] + (wide)full[i][1] * c[1] + (wide)full[i][2] * c[2]);
     }
 }

@@ -14,7 +14,8 @@ void proof(void)
     int32_t a1 = (int32_t)(a >> 32), b1 = (int32_t)(b >> 32);
     uint32_t a0 = (uint32_t)a, b0 = (uint32_t)b;
     wide cross = (wide)a1 * b0 + (wide)b1 * a0;
-    unsigned __int128 product = ((unsigned __int128)((wide)a1 * b1) << 64) + ((unsigned __int128)cross << 32);
+    unsigned __int128 product =
+        ((unsigned __int128)((wide)a1 * b1) << 64) + ((unsigned __int128)cross << 32);
     struct fix_wide found = fix_wide_mul(a, b);
 
     product += (uint64_t)a0 * b0;

@@ -15,7 +15,8 @@ static unsigned __int128 whole(const struct fix_wide *a)
 
 void proof(void)
 {
-    struct fix_wide a = {proof_word(), (uint64_t)proof_word()}, b = {proof_word(), (uint64_t)proof_word()};
+    struct fix_wide a = {proof_word(), (uint64_t)proof_word()},
+                    b = {proof_word(), (uint64_t)proof_word()};
     struct fix_wide sum = a, difference = a;
 
     fix_wide_add(&sum, &b);
