@@ -155,7 +155,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics proof analysis faults worst soak coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics proof analysis faults worst soak mutants coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -253,11 +253,11 @@ worst: ## look for the dearest step by hill climbing, and compare its counts wit
 
 N ?= 5000
 SEED ?= 1
-soak: ## run random worlds under an independent checker, to out/soak.csv and docs/soak.md; N=5000 SEED=1 KEEP=1
+soak: ## run random worlds under an independent checker, to out/soak.csv and docs/soak.md; N=5000 SEED=1 RECORD=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_soak.elf
 	@tools/soak.py build/host/host_soak.elf --first $(SEED) --count $(N) \
-	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs) $(if $(KEEP),--keep)
+	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs) $(if $(RECORD),--record)
 
 SECONDS ?= 60
 proof: ## prove the programs of tests/proof for all inputs, to out/proof.csv and docs/evidence.md; SHORT=1 is what CI runs
@@ -289,6 +289,10 @@ coverage: ## lines, branches and MC/DC of src/ that the host tests run, to out/c
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang-19
 	@$(SUBMAKE) BOARD=host COVERED=1 $(COVERAGE)
 	@tools/coverage.py $(if $(SHORT),--short) $(COVERAGE)
+
+mutants: ## change the engine in one place at a time: do the tests notice? To out/mutants.csv and docs/evidence.md; MUTANTS=500 MOST= FILES= RECORD=1
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@tools/mutants.py --count $(or $(MUTANTS),500) $(if $(MOST),--most $(MOST)) --files '$(FILES)' $(if $(RECORD),--record)
 
 bench: ## count instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)

@@ -4,8 +4,9 @@
 
 PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, with names like 12, m12 and w12: bodies alone, machines, and
 wild machines. Every world is a row of out/soak.csv. The summary is printed and, with --docs, written into docs/soak.md, bodies and
-machines each between two comments. With --keep its counts are added to those of docs/evidence.md. A world that ends the program, or takes too long, gets a row of its own, and the others run
-without it. For each failing world a line says how to run it alone, frame by frame. The exit status is 1 if there is any fault.
+machines each between two comments. With --record its counts are added to those of docs/evidence.md. A world that ends the program,
+or takes too long, gets a row of its own, and the others run without it. For each failing world a line says how to run it alone, frame
+by frame. The exit status is 1 if there is any fault.
 """
 import argparse
 import concurrent.futures
@@ -206,7 +207,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--kinds", default="bmw", help="of worlds: bodies, machines, wild ones")
     parser.add_argument("--docs", action="store_true", help="write the summary into " + DOCS)
-    parser.add_argument("--keep", action="store_true", help="add the counts to those of docs/evidence.md")
+    parser.add_argument("--record", action="store_true", help="add the counts to those of docs/evidence.md")
     arguments = parser.parse_args()
     os.chdir(gate.ROOT)
     by_kind = {}
@@ -219,7 +220,7 @@ def main():
         by_kind[kind] = made, time.monotonic() - start
     rows = [row for made, _ in by_kind.values() for row in made]
     write_csv(rows)
-    if arguments.keep:
+    if arguments.record:
         keep_counts(by_kind)
     if arguments.docs:
         document(by_kind)
