@@ -10,12 +10,12 @@ static int check_pixels(const struct carom_picture *picture, enum carom_draw_sty
     int32_t row = shift < 0 ? (picture->width + 1) / 2 : picture->width * each;
 
     if (picture->row) {
-        return style == CAROM_DRAW_FLAT && shift >= 0 ? CAROM_OK : CAROM_ERR_ARGUMENT;
+        return style == CAROM_DRAW_FLAT && shift >= 0 ? CAROM_OK : (int)CAROM_ERR_ARGUMENT;
     }
     if (picture->stride < row || picture->stride % each != 0) {
         return CAROM_ERR_ARGUMENT;
     }
-    return (uintptr_t)picture->pixels % (uintptr_t)each != 0 ? CAROM_ERR_MEMORY : CAROM_OK;
+    return (uintptr_t)picture->pixels % (uintptr_t)each != 0 ? (int)CAROM_ERR_MEMORY : CAROM_OK;
 }
 
 int draw_check_picture(const struct carom_picture *picture, enum carom_draw_style style)

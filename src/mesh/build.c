@@ -54,7 +54,7 @@ static int find_box(struct carom_mesh *mesh)
         side_q22[k] = carom_shl(mesh->box[1][k] - mesh->box[0][k], 22 - raw->quantum_bits);
         fits = fits && side_q22[k] <= (int64_t)256 << 22;
     }
-    return fits && fix_length(side_q22) <= (int64_t)384 << 22 ? CAROM_OK : CAROM_ERR_RANGE;
+    return fits && fix_length(side_q22) <= (int64_t)384 << 22 ? CAROM_OK : (int)CAROM_ERR_RANGE;
 }
 
 /*

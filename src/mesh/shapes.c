@@ -249,7 +249,7 @@ static int check(const struct carom_mesh_raw *raw, const struct carom_shape_room
     if (!raw || !room || !room->vertices || !room->faces) {
         return CAROM_ERR_NULL;
     }
-    return room->quantum_bits < 7 || room->quantum_bits > 20 ? CAROM_ERR_ARGUMENT : CAROM_OK;
+    return room->quantum_bits < 7 || room->quantum_bits > 20 ? (int)CAROM_ERR_ARGUMENT : CAROM_OK;
 }
 
 /* A raw mesh over a room's arrays, still empty. */

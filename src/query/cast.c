@@ -30,7 +30,7 @@ static int check_ray(const struct carom_ray *ray)
     for (int k = 0; k < 3; k++) {
         longest = carom_abs(ray->way.c[k]) > longest ? carom_abs(ray->way.c[k]) : longest;
     }
-    return longest < WAY_LEAST_Q32 ? CAROM_ERR_ARGUMENT : CAROM_OK;
+    return longest < WAY_LEAST_Q32 ? (int)CAROM_ERR_ARGUMENT : CAROM_OK;
 }
 
 /* Hits found so far: the first `room` ones, in order. */

@@ -60,7 +60,7 @@ static int make_world(struct carom_replay *p, struct replay_call *call)
         return CAROM_ERR_MEMORY;
     }
     p->world = NULL;
-    return carom_world_init(p->block, p->block_bytes, config, &p->world) < 0 ? CAROM_ERR_FORMAT
+    return carom_world_init(p->block, p->block_bytes, config, &p->world) < 0 ? (int)CAROM_ERR_FORMAT
                                                                              : CAROM_OK;
 }
 
@@ -72,7 +72,7 @@ static int check(struct carom_replay *p)
 
     p->frames++;
     if (!next_is(p, REPLAY_TOKEN_CHECK)) {
-        return p->at < p->bytes ? CAROM_ERR_FORMAT : CAROM_REPLAY_CUT;
+        return p->at < p->bytes ? (int)CAROM_ERR_FORMAT : CAROM_REPLAY_CUT;
     }
     c.at = 1;
     carom_replay_digests(p->world, digests);
@@ -169,7 +169,7 @@ static int perform_new(struct carom_replay *p, uint8_t op)
 
     replay_code(&c, &call);
     if (!play_done(p, &c)) {
-        return p->at >= p->bytes ? CAROM_REPLAY_CUT : CAROM_ERR_FORMAT;
+        return p->at >= p->bytes ? CAROM_REPLAY_CUT : (int)CAROM_ERR_FORMAT;
     }
     if (!replay_has_data(op)) {
         replay_keep(&p->memory, bytes, c.at + 1);

@@ -133,7 +133,7 @@ static int read_surface(struct carom_replay *p, struct replay_call *call)
     }
     read_vertices(&c, vertices, call->count);
     call->vertices = (const int16_t(*)[3])vertices;
-    return play_done(p, &c) ? CAROM_OK : CAROM_ERR_FORMAT;
+    return play_done(p, &c) ? CAROM_OK : (int)CAROM_ERR_FORMAT;
 }
 
 static int read_materials(struct carom_replay *p, struct replay_call *call)
@@ -162,7 +162,7 @@ static int read_materials(struct carom_replay *p, struct replay_call *call)
     }
     call->data = materials;
     call->of_face = of_face;
-    return play_done(p, &c) ? CAROM_OK : CAROM_ERR_FORMAT;
+    return play_done(p, &c) ? CAROM_OK : (int)CAROM_ERR_FORMAT;
 }
 
 int play_data(struct carom_replay *p, struct replay_call *call)

@@ -170,7 +170,7 @@ static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
         }
     }
     *state = best;
-    return best_q32 < most_q32 ? CAROM_OK : CAROM_ERR_BLOCKED;
+    return best_q32 < most_q32 ? CAROM_OK : (int)CAROM_ERR_BLOCKED;
 }
 
 /* Check that there is room for all pairs that a body is to pass. */

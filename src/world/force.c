@@ -90,7 +90,7 @@ int world_check_forces(const struct body *b, const carom_v3_q40 *gravity,
     return world_each_within(f->torque.c, b->def.moving ? world_most_angular_q40(b) : 0) &&
                    world_acceleration(b, f->gravity_scale_q16, gravity, &f->force, &sum)
                ? CAROM_OK
-               : CAROM_ERR_RANGE;
+               : (int)CAROM_ERR_RANGE;
 }
 
 int carom_body_forces(const struct carom_world *w, int body, struct carom_forces *forces)
@@ -112,7 +112,7 @@ static int find_forces(const struct carom_world *w, int *body, struct carom_forc
         return CAROM_ERR_BODY;
     }
     *out = world_forces(&w->bodies[*body]);
-    return w->bodies[*body].def.moving ? CAROM_OK : CAROM_ERR_ARGUMENT;
+    return w->bodies[*body].def.moving ? CAROM_OK : (int)CAROM_ERR_ARGUMENT;
 }
 
 /* Set a body's forces, if `result` says that they were found. */
@@ -252,8 +252,9 @@ static int check_push(const struct carom_world *w, int *body)
     if (!world_find_body(w, body)) {
         return CAROM_ERR_BODY;
     }
-    return w->bodies[*body].def.moving && !world_now(w)->bodies[*body].out ? CAROM_OK
-                                                                           : CAROM_ERR_ARGUMENT;
+    return w->bodies[*body].def.moving && !world_now(w)->bodies[*body].out
+               ? CAROM_OK
+               : (int)CAROM_ERR_ARGUMENT;
 }
 
 /* Add an impulse and a moment to the momenta of a body; NULL: none. */

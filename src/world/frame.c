@@ -19,7 +19,7 @@ static int ask(const struct carom_world *w, int *body, const void *in, const voi
     if (!w || !in || !out) {
         return CAROM_ERR_NULL;
     }
-    return world_find_body(w, body) ? CAROM_OK : CAROM_ERR_BODY;
+    return world_find_body(w, body) ? CAROM_OK : (int)CAROM_ERR_BODY;
 }
 
 int carom_body_matrix(const struct carom_world *w, int body, struct carom_matrix *matrix)

@@ -8,7 +8,7 @@ static int check_bodies(const struct carom_world *w, int *a, int *b)
     if (!world_find_body(w, a) || !world_find_body(w, b)) {
         return CAROM_ERR_BODY;
     }
-    return *a == *b ? CAROM_ERR_ARGUMENT : CAROM_OK;
+    return *a == *b ? (int)CAROM_ERR_ARGUMENT : CAROM_OK;
 }
 
 static struct interfere_placed placed(const struct carom_world *w, int body)
