@@ -155,7 +155,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics proof analysis faults worst soak mutants coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics proof analysis faults worst soak meshes mutants coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -289,6 +289,11 @@ coverage: ## lines, branches and MC/DC of src/ that the host tests run, to out/c
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang-19
 	@$(SUBMAKE) BOARD=host COVERED=1 $(COVERAGE)
 	@tools/coverage.py $(if $(SHORT),--short) $(COVERAGE)
+
+meshes: ## give carom-mesh hostile files: each ends in a named error or a right mesh; N= FIRST= RECORD=1
+	@tools/need $(NEED_MESHES)
+	@$(SUBMAKE) BOARD=host build/tools/carom-mesh
+	@tools/hostile_meshes.py build/tools/carom-mesh --first $(or $(FIRST),1) --count $(N) $(if $(RECORD),--record)
 
 mutants: ## change the engine in one place at a time: do the tests notice? To out/mutants.csv and docs/evidence.md; MUTANTS=500 MOST= FILES= RECORD=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST)

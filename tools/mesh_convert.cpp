@@ -11,9 +11,13 @@
  *
  * It runs on the host, so it may use floating point.
  */
+#include <cerrno>
 #include <cstdio>
 #include <string>
 #include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "mesh_heights.hpp"
 #include "mesh_make.hpp"
@@ -222,16 +226,13 @@ void print_report(const Options &options, const Product &part)
     }
 }
 
-} // namespace
-
-int main(int argc, char **argv)
+/* Convert a file; returns the exit status. */
+int convert(Options &options)
 {
-    Options options;
     std::vector<Product> parts;
     std::set<std::string> taken;
 
     try {
-        options = parse(argc, argv);
         for (const Soup &soup : read_parts(options)) {
             const std::string name =
                 options.objects ? name_part(soup.objects[0], taken) : options.name;
@@ -256,4 +257,45 @@ int main(int argc, char **argv)
         return 1;
     }
     return 0;
+}
+
+/*
+ * Convert in a process of its own: damaged files make assimp's readers fail in ways that end the
+ * process.
+ */
+int convert_apart(Options options)
+{
+    int status = 0;
+    const pid_t child = fork();
+
+    if (child < 0) { /* no process left: without the protection */
+        return convert(options);
+    }
+    if (child == 0) {
+        status = convert(options);
+        std::fflush(nullptr);
+        _exit(status);
+    }
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFEXITED(status)) {
+        return WEXITSTATUS(status);
+    }
+    std::fprintf(stderr,
+                 "carom-mesh: %s: cannot be read: the library that reads it failed; the file is "
+                 "damaged, export it again, e.g. as OBJ\n",
+                 options.in.c_str());
+    return 1;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    try {
+        return convert_apart(parse(argc, argv));
+    } catch (const std::exception &refusal) {
+        std::fprintf(stderr, "carom-mesh: %s\n", refusal.what());
+        return 1;
+    }
 }

@@ -7,8 +7,10 @@
 
 static void put(struct carom_record *r, const void *bytes, size_t count)
 {
-    r->sum = replay_sum(r->sum, (const uint8_t *)bytes, count);
-    r->write(r->user, bytes, count);
+    if (count > 0) { /* no bytes may have no address, which memcpy in a writer must not see */
+        r->sum = replay_sum(r->sum, (const uint8_t *)bytes, count);
+        r->write(r->user, bytes, count);
+    }
 }
 
 static void put_fixed(struct carom_record *r, uint64_t value, int bytes)

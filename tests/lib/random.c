@@ -14,5 +14,7 @@ uint64_t test_random_next(struct test_random *r)
 
 int64_t test_random_range(struct test_random *r, int64_t low, int64_t high)
 {
-    return low + (int64_t)(test_random_next(r) % ((uint64_t)(high - low) + 1));
+    const uint64_t span = (uint64_t)high - (uint64_t)low, v = test_random_next(r);
+
+    return (int64_t)((uint64_t)low + (span == UINT64_MAX ? v : v % (span + 1)));
 }
