@@ -4,7 +4,7 @@
 
     fuzz.py PROGRAM [--seconds 60] [--runs N] [--targets calls,draw] [--record]
 
-Targets take turns of equal time, or get N runs each. Inputs that reach new code are kept in build/fuzz/TARGET, and the next run
+Targets take turns of equal time, or get N runs each, which begin from one seed. Inputs that reach new code are kept in build/fuzz/TARGET, and the next run
 goes on from them. An input that fails goes to out/fuzz; a line of tests/lib/inputs.c makes a test of it.
 """
 import argparse
@@ -38,7 +38,7 @@ def run(program, target, limit):
     """Run one target. Returns how many runs it made, in how many seconds, and how many inputs failed."""
     # entropic schedules cost more time than the calls do
     command = [program, target, corpus(target), "-entropic=0", "-max_len=%d" % LENGTH, "-timeout=%d" % TIMEOUT,
-               "-artifact_prefix=out/fuzz/%s-" % target, "-print_final_stats=1", limit]
+               "-artifact_prefix=out/fuzz/%s-" % target, "-print_final_stats=1", *limit]
     before = os.times()
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
     after = os.times()
@@ -62,7 +62,8 @@ def main():
     figures = {"%s, runs" % target: (0, "sum") for target in TARGETS}
     os.makedirs("out/fuzz", exist_ok=True)
     for target in targets:
-        limit = "-runs=%d" % options.runs if options.runs else "-max_total_time=%d" % max(1, options.seconds // len(targets))
+        limit = ["-runs=%d" % options.runs, "-seed=1"] if options.runs else \
+            ["-max_total_time=%d" % max(1, options.seconds // len(targets))]
         runs, seconds, bad = run(options.program, target, limit)
         failed += bad
         figures["%s, runs" % target] = (runs, "sum")
