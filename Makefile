@@ -259,14 +259,14 @@ soak: ## run random worlds under an independent checker, to out/soak.csv and doc
 	@tools/soak.py build/host/host_soak.elf --first $(SEED) --count $(N) \
 	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs) $(if $(RECORD),--record)
 
-SECONDS ?= 60
-proof: ## prove the programs of tests/proof for all inputs, to out/proof.csv and docs/evidence.md; SHORT=1 is what CI runs
+proof: ## prove the programs of tests/proof for all inputs, to out/proof.csv and docs/evidence.md; NAMES= SHORT=1
 	@tools/need python3 z3 cvc5 clang-19 cc libc
 	@tools/proof.py $(if $(SHORT),--short) $(NAMES)
 
-analysis: ## gcc -fanalyzer, clang-tidy, cppcheck with MISRA, the newest compilers; to docs/evidence.md; SHORT=1 is what CI runs
+analysis: ## gcc -fanalyzer, clang-tidy, cppcheck with MISRA, the newest compilers; to docs/evidence.md; SHORT=1
 	@tools/analysis.py $(if $(SHORT),--short)
 
+SECONDS ?= 60
 fuzz: ## libFuzzer over calls, questions, pictures, snapshots, recordings, meshes, with sanitizers; SECONDS=60 in all or N= runs each, TARGETS=calls,draw RECORD=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang llvm
 	@$(SUBMAKE) BOARD=host DEBUG=1 FUZZ=1 COMPILER=clang build/host-debug-fuzz/fuzz.elf

@@ -20,6 +20,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "lib/bytes.h"
 #include "lib/crowd.h"
 #include "lib/edits.h"
 #include "lib/real.h"
@@ -213,7 +214,7 @@ static const char *judge_crowd(const struct crowd_tally *watched, bool slow)
 
 /* ------------------------------------------------------------------------ changes */
 
-/* What was taken steps, and is taken back. */
+/* A snapshot that was taken steps, and its own snapshot is taken back. */
 static const char *go_on(int steps)
 {
     static uint8_t after[SAVED_BYTES];
@@ -244,7 +245,7 @@ static void try_changed(size_t size, int steps, long at)
     const char *fault;
     int result;
 
-    edit_mend64(changed, size);
+    bytes_mend(changed, size);
     fault = saved_try_load(&now.saved, changed, size, &result);
     tally.changed++;
     tally.refused += result < 0;
@@ -352,12 +353,12 @@ static void each_blob(const struct carom_mesh_raw *raw)
             memcpy(blob, good, size);
             blob[at] ^= (uint8_t)value;
             try_blob(blob, size, false);
-            edit_mend64(blob, size);
+            bytes_mend(blob, size);
             try_blob(blob, size, true);
         }
         memcpy(blob, good, size);
         try_blob(blob, at, false);
-        edit_mend64(blob, at);
+        bytes_mend(blob, at);
         try_blob(blob, at, true);
     }
 }

@@ -55,23 +55,13 @@ static void play(const struct fixture_scene *scene)
     fixture_free(f);
 }
 
-static bool chosen(const char *name, int count, char **names)
-{
-    for (int i = 0; i < count; i++) {
-        if (strcmp(names[i], name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 int main(int argc, char **argv)
 {
-    bool list = chosen("list", argc, argv), all = chosen("long", argc, argv);
+    bool list = lab_given("list", argc, argv), all = lab_given("long", argc, argv);
     int flags;
 
-    options.talk = chosen("frames", argc, argv);
-    options.csv = chosen("csv", argc, argv);
+    options.talk = lab_given("frames", argc, argv);
+    options.csv = lab_given("csv", argc, argv);
     flags = list + all + options.talk + options.csv;
     options.whole = all || argc - 1 > flags;
     if (options.csv && !list) {
@@ -80,7 +70,7 @@ int main(int argc, char **argv)
     }
     for (size_t g = 0; g < GROUPS; g++) {
         for (const struct fixture_scene *scene = groups[g]; scene->name; scene++) {
-            bool asked = chosen(scene->name, argc, argv);
+            bool asked = lab_given(scene->name, argc, argv);
 
             if (list) {
                 puts(scene->name);

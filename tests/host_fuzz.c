@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/bytes.h"
 #include "lib/edits.h"
 #include "lib/fuzz.h"
 #include "lib/open_cases.h"
@@ -83,7 +84,7 @@ static void load_changed(uint64_t seed, int call)
 
         memcpy(bad, good, (size_t)size);
         edit_bytes(&fuzz.chance, bad, (size_t)size - 8);
-        edit_mend64(bad, (size_t)size);
+        bytes_mend(bad, (size_t)size);
         result = carom_snapshot_load(fuzz.world, bad, (size_t)size);
         mutated++;
         if (result < 0) {

@@ -47,24 +47,14 @@ void physics_miss(const char *name, const char *from, double expected, double me
     row(name, from, expected, measured, bar, most, why);
 }
 
-static bool chosen(const char *name, int count, char **names)
-{
-    for (int i = 1; i < count; i++) {
-        if (strcmp(names[i], name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 int main(int argc, char **argv)
 {
-    csv = chosen("csv", argc, argv);
+    csv = lab_given("csv", argc, argv);
     if (csv) {
         puts("motion,from,expected,measured,error,bar,holds,why");
     }
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        if (argc - 1 == csv || chosen(parts[i].name, argc, argv)) {
+        if (argc - 1 == csv || lab_given(parts[i].name, argc, argv)) {
             parts[i].measure();
         }
     }

@@ -6,9 +6,9 @@
  */
 #include <string.h>
 
+#include "lib/bytes.h"
 #include "lib/shapes.h"
 #include "lib/test.h"
-#include "num/fnv.h"
 
 #if defined TEST_LONG
 #define CHANGES 2000 /* changes for each state of each world */
@@ -67,33 +67,6 @@ static struct carom_world *make(bool stack)
     return w;
 }
 
-static uint64_t fnv(const uint8_t *bytes, int n)
-{
-    uint64_t h = FNV_START;
-
-    for (int i = 0; i < n; i++) {
-        h = fnv_add(h, bytes[i]);
-    }
-    return h;
-}
-
-static void put_number(uint8_t *bytes, uint64_t v, int n)
-{
-    for (int i = 0; i < n; i++) {
-        bytes[i] = (uint8_t)(v >> 8 * i);
-    }
-}
-
-static uint64_t number_at(const uint8_t *bytes, int n)
-{
-    uint64_t v = 0;
-
-    while (n-- > 0) {
-        v = v << 8 | bytes[n];
-    }
-    return v;
-}
-
 /* A number in the snapshot: its offset and its length in bytes. */
 struct field {
     int at, bytes;
@@ -118,9 +91,9 @@ static struct field choose(void)
     static const uint8_t of_warm[12] = {2, 2, 4, 4, 4, 4, 4, 4, 8, 8, 8, 8};
     static const uint8_t of_pair[2] = {2, 2};
     const int at_warm = AT_BODY + BODIES * BODY_BYTES;
-    const int warm = (int)number_at(saved + at_warm, 4);
+    const int warm = (int)bytes_number(saved + at_warm, 4);
     const int at_touching = at_warm + 4 + warm * WARM_BYTES;
-    const int touching = (int)number_at(saved + at_touching, 4);
+    const int touching = (int)bytes_number(saved + at_touching, 4);
     const int n = (int)test_random_range(&rnd, 0, 10000);
 
     switch (test_random_range(&rnd, 0, 9)) {
@@ -174,10 +147,10 @@ static void change(int size)
     for (int64_t n = test_random_range(&rnd, 0, 3); n >= 0; n -= 2) {
         struct field f = choose();
 
-        put_number(changed + f.at, other_number(number_at(saved + f.at, f.bytes), f.bytes),
-                   f.bytes);
+        bytes_put(changed + f.at, other_number(bytes_number(saved + f.at, f.bytes), f.bytes),
+                  f.bytes);
     }
-    put_number(changed + size - 8, fnv(changed, size - 8), 8);
+    bytes_mend(changed, (size_t)size);
 }
 
 /* Take a step; it may be refused because a pool is short or a body too fast for a mesh. */

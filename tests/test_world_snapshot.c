@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "lib/bytes.h"
 #include "lib/shapes.h"
 #include "lib/test.h"
 
@@ -112,34 +113,6 @@ static struct carom_world *make_elsewhere(int n)
     return w;
 }
 
-/* The number in the next `n` bytes, lowest byte first. */
-static uint64_t number_at(const uint8_t *bytes, int n)
-{
-    uint64_t v = 0;
-
-    while (n-- > 0) {
-        v = v << 8 | bytes[n];
-    }
-    return v;
-}
-
-static void put_number(uint8_t *bytes, uint64_t v, int n)
-{
-    for (int i = 0; i < n; i++) {
-        bytes[i] = (uint8_t)(v >> 8 * i);
-    }
-}
-
-static uint64_t fnv(const uint8_t *bytes, int n)
-{
-    uint64_t h = 0xcbf29ce484222325u;
-
-    for (int i = 0; i < n; i++) {
-        h = (h ^ bytes[i]) * 0x100000001b3u;
-    }
-    return h;
-}
-
 static int save(const struct carom_world *w, uint8_t *bytes)
 {
     int n = carom_snapshot_save(w, bytes, sizeof saved);
@@ -164,9 +137,9 @@ static void run_to(struct carom_world *w, enum phase phase)
         if (phase == FLIGHT) {
             there = frame == 2;
             CHECK_EQ(saved[AT_BOX + AT_QUIET], 0);
-            CHECK_EQ(number_at(saved + AT_WARM, 4), 0);
+            CHECK_EQ(bytes_number(saved + AT_WARM, 4), 0);
         } else if (phase == CONTACT) {
-            there = saved[AT_BOX + AT_QUIET] >= 5 && number_at(saved + AT_WARM, 4) > 0;
+            there = saved[AT_BOX + AT_QUIET] >= 5 && bytes_number(saved + AT_WARM, 4) > 0;
         } else {
             there = saved[AT_BOX + AT_ASLEEP] == 1;
         }
@@ -265,14 +238,14 @@ static void test_rewind(void)
     size = save(w, saved);
     for (int run = 0; run < 2; run++) {
         CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
-        CHECK_EQ(carom_world_hash(w), fnv(saved, size));
+        CHECK_EQ(carom_world_hash(w), bytes_fnv64(saved, (size_t)size));
         for (int frame = 0; frame < 20; frame++) {
             CHECK_EQ(carom_world_step(w), CAROM_OK);
         }
         end[run] = carom_world_hash(w);
     }
     CHECK_EQ(end[0], end[1]);
-    CHECK_DIFFER(end[0], fnv(saved, size));
+    CHECK_DIFFER(end[0], bytes_fnv64(saved, (size_t)size));
 }
 
 /* -------------------------------------------------------------------- refusal */
@@ -329,7 +302,7 @@ static void test_altered(void)
         CHECK_EQ(carom_world_hash(w), carom_world_hash(twin));
     }
     CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
-    CHECK_EQ(carom_world_hash(w), fnv(saved, size));
+    CHECK_EQ(carom_world_hash(w), bytes_fnv64(saved, (size_t)size));
 }
 
 /* One body in flight: every length and every byte, on every machine. */
@@ -359,7 +332,7 @@ static void test_other_bodies(void)
     w = make(0);
     run_to(w, CONTACT);
     size = save(w, saved);
-    CHECK_MORE(number_at(saved + AT_WARM, 4), 1);
+    CHECK_MORE(bytes_number(saved + AT_WARM, 4), 1);
 
     refuse(empty_world(1), saved, size);
     w = empty_world(1);
@@ -394,8 +367,8 @@ static void test_other_bodies(void)
 static void refuse_number(struct carom_world *w, int size, int at, uint64_t v, int n)
 {
     memcpy(other, saved, sizeof other);
-    put_number(other + at, v, n);
-    put_number(other + size - 8, fnv(other, size - 8), 8);
+    bytes_put(other + at, v, n);
+    bytes_mend(other, (size_t)size);
     refuse(w, other, size);
 }
 
@@ -410,8 +383,8 @@ static void test_implausible(void)
     run_to(w, CONTACT);
     size = save(w, saved);
     w = make_elsewhere(0);
-    touching = AT_WARM + 4 + WARM_BYTES * (int)number_at(saved + AT_WARM, 4);
-    CHECK_EQ(number_at(saved + touching, 4), 1);
+    touching = AT_WARM + 4 + WARM_BYTES * (int)bytes_number(saved + AT_WARM, 4);
+    CHECK_EQ(bytes_number(saved + touching, 4), 1);
 
     refuse_number(w, size, 0, 0x31534d43, 4);
     refuse_number(w, size, AT_PLACES, 2, 4);
@@ -456,8 +429,8 @@ static void test_implausible(void)
     }
     /* correcting the check sum does not itself spoil a snapshot */
     memcpy(other, saved, sizeof other);
-    put_number(other + far, 0, 8);
-    put_number(other + size - 8, fnv(other, size - 8), 8);
+    bytes_put(other + far, 0, 8);
+    bytes_mend(other, (size_t)size);
     CHECK_EQ(carom_snapshot_load(w, other, (size_t)size), CAROM_OK);
 }
 
@@ -542,7 +515,7 @@ static void test_layout(void)
     check_bytes(AT_WARM + 8, through, sizeof through);
     check_bytes(0, start, sizeof start);
     for (int k = 0; k < 3; k++) {
-        CHECK_EQ(number_at(saved + AT_GRAVITY + 8 * k, 8), gravity.c[k]);
+        CHECK_EQ(bytes_number(saved + AT_GRAVITY + 8 * k, 8), gravity.c[k]);
     }
     check_bytes(AT_PLACES, places, sizeof places);
     check_bytes(AT_GROUND + AT_POSITION, position, sizeof position);
@@ -551,16 +524,16 @@ static void test_layout(void)
     check_bytes(AT_GROUND + AT_ASLEEP, none, 4);
     CHECK_EQ(saved[AT_BOX], 2);
     check_bytes(AT_BOX + AT_POSITION, position, sizeof position);
-    CHECK_EQ(number_at(saved + AT_BOX + AT_MOMENTUM + 8, 8), -3 * ONE);
+    CHECK_EQ(bytes_number(saved + AT_BOX + AT_MOMENTUM + 8, 8), -3 * ONE);
     check_bytes(AT_BOX + AT_ANGULAR, none, 24);
     for (int k = 0; k < 3; k++) {
-        CHECK_EQ(number_at(saved + AT_BOX + AT_FORCE + 8 * k, 8), force.c[k]);
+        CHECK_EQ(bytes_number(saved + AT_BOX + AT_FORCE + 8 * k, 8), force.c[k]);
     }
     check_bytes(AT_BOX + AT_ROTATION, rotation, sizeof rotation);
     check_bytes(AT_BOX + AT_ASLEEP, none, 4);
     CHECK_EQ(saved[AT_FREE], 0);
     check_bytes(AT_WARM, none, 8);
-    CHECK_EQ(number_at(saved + size - 8, 8), fnv(saved, size - 8));
+    CHECK_EQ(bytes_number(saved + size - 8, 8), bytes_fnv64(saved, (size_t)(size - 8)));
 }
 
 /* Kept impulses and the touching pair of a box that lies on the plane. */
@@ -573,12 +546,12 @@ static void test_layout_contact(void)
     w = make(0);
     run_to(w, CONTACT);
     size = save(w, saved);
-    count = (int)number_at(saved + AT_WARM, 4);
+    count = (int)bytes_number(saved + AT_WARM, 4);
     touching = AT_WARM + 4 + WARM_BYTES * count;
     CHECK_AT_LEAST(count, 3);
     CHECK_AT_MOST(count, 16); /* it lies on a face */
     CHECK_EQ(size, touching + 4 + 4 + 8);
-    CHECK_EQ(number_at(saved + touching, 4), 1);
+    CHECK_EQ(bytes_number(saved + touching, 4), 1);
     CHECK_EQ(saved[touching + 4] + saved[touching + 6], 1);
     for (int i = 0; i < count; i++) {
         const uint8_t *warm = saved + AT_WARM + 4 + WARM_BYTES * i;
@@ -587,14 +560,14 @@ static void test_layout_contact(void)
         /* the same two bodies, a unit normal, and an impulse that does not pull */
         CHECK_EQ(memcmp(warm, saved + touching + 4, 4), 0);
         for (int k = 0; k < 3; k++) {
-            int64_t n_q30 = (int32_t)(uint32_t)number_at(warm + 16 + 4 * k, 4);
+            int64_t n_q30 = (int32_t)(uint32_t)bytes_number(warm + 16 + 4 * k, 4);
 
             square_q60 += n_q30 * n_q30;
         }
         CHECK_NEAR(square_q60, (int64_t)1 << 60, (int64_t)1 << 34);
-        CHECK_AT_LEAST((int64_t)number_at(warm + 28, 8), 0);
+        CHECK_AT_LEAST((int64_t)bytes_number(warm + 28, 8), 0);
     }
-    CHECK_EQ(carom_world_hash(w), fnv(saved, size));
+    CHECK_EQ(carom_world_hash(w), bytes_fnv64(saved, (size_t)size));
 }
 
 /* The hash is the FNV-1a of the saved bytes, in every phase. */
@@ -607,8 +580,8 @@ static void test_hash(void)
 
         run_to(w, (enum phase)phase);
         size = save(w, saved);
-        CHECK_EQ(carom_world_hash(w), fnv(saved, size));
-        CHECK_EQ(number_at(saved + size - 8, 8), fnv(saved, size - 8));
+        CHECK_EQ(carom_world_hash(w), bytes_fnv64(saved, (size_t)size));
+        CHECK_EQ(bytes_number(saved + size - 8, 8), bytes_fnv64(saved, (size_t)(size - 8)));
     }
     CHECK_EQ(carom_world_hash(NULL), 0);
 }

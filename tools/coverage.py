@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""What of src/ the host tests run: tools/coverage.py [--short] PROGRAM...
+"""Lines, branches and conditions of src/ that the host tests run: tools/coverage.py [--short] PROGRAM...
 
 The programs are built by the clang of COVERED=1, which counts lines, both ways of every branch, and for MC/DC each condition
 that decides alone. Two run at a time; the counts of all are one. out/coverage/files.csv has the figures of each file,
@@ -204,7 +204,7 @@ def main():
         held = evidence.ratchet("coverage", dict(zip(names, values)))
     elif not failed:
         evidence.record("coverage", {**{name: (value, "more") for name, value in zip(names, values)},
-                                     "gaps explained": (sum(map(len, found.values())), "less")})
+                                     "gaps": (sum(map(len, found.values())), "less")})
     for complaint in failed:
         print("FAIL " + complaint)
     return bool(failed) or not held

@@ -8,11 +8,11 @@ is
     caught    a test fails, ends early or does not end
     equal     the compiler makes the same object of it
     refused   it does not compile
-    alive     no test notices
+    judged    no test notices, and tests/mutants_alive.csv gives the reason: it changes nothing, or costs alone
+    alive     no test notices, and it is not listed there
 Each worker has a clone of the last commit in build/mutants, compiled at -O1. The suites of the mutant's folder run
-first, then the plays, all suites, and the host's programs. Results go to out/mutants.csv. tests/mutants_alive.csv lists mutants that
-were judged: equal in what they do, or changing costs alone, each with its reason. A mutant that is alive and not listed there is
-printed, and counts as missed. --record writes the share of those caught to docs/evidence.md.
+first, then the plays, all suites, and the host's programs. Results go to out/mutants.csv. Mutants that are alive are
+printed, and count as missed. --record writes the share of those caught to docs/evidence.md.
 """
 import argparse
 import collections

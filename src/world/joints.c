@@ -187,7 +187,7 @@ int carom_joint_remove(struct carom_world *w, int joint)
     return result;
 }
 
-/* What lies between the members of a caller's drive means nothing. */
+/* Compare members, because the bytes between the members of a caller's drive mean nothing. */
 static bool same_drive(const struct carom_joint_drive *a, const struct carom_joint_drive *b)
 {
     return a->limited == b->limited && a->lower_q32 == b->lower_q32 &&

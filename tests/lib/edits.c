@@ -4,24 +4,8 @@
 
 #include <string.h>
 
+#include "bytes.h"
 #include "num/fnv.h"
-
-static uint64_t number_at(const uint8_t *bytes, int n)
-{
-    uint64_t v = 0;
-
-    while (n-- > 0) {
-        v = v << 8 | bytes[n];
-    }
-    return v;
-}
-
-static void put_number(uint8_t *bytes, uint64_t v, int n)
-{
-    for (int i = 0; i < n; i++) {
-        bytes[i] = (uint8_t)(v >> 8 * i);
-    }
-}
 
 /* Another number: any, one near to it, one of other bits, a multiple. */
 static uint64_t other_number(struct chance *c, uint64_t v, int bytes)
@@ -62,7 +46,7 @@ static void edit(struct chance *c, uint8_t *bytes, size_t size)
     if (at + (size_t)n > size) {
         bytes[at] = (uint8_t)chance_pick(c, 256);
     } else {
-        put_number(bytes + at, other_number(c, number_at(bytes + at, n), n), n);
+        bytes_put(bytes + at, other_number(c, bytes_number(bytes + at, n), n), n);
     }
 }
 
@@ -77,18 +61,6 @@ void edit_bytes(struct chance *c, uint8_t *bytes, size_t size)
     }
 }
 
-void edit_mend64(uint8_t *bytes, size_t size)
-{
-    uint64_t fnv = FNV_START;
-
-    for (size_t i = 0; i + 8 < size; i++) {
-        fnv = fnv_add(fnv, bytes[i]);
-    }
-    if (size >= 8) {
-        put_number(bytes + size - 8, fnv, 8);
-    }
-}
-
 void edit_mend32(uint8_t *bytes, size_t size)
 {
     uint32_t sum = FNV32_START;
@@ -97,13 +69,13 @@ void edit_mend32(uint8_t *bytes, size_t size)
         sum = fnv32_add(sum, bytes[i]);
     }
     if (size >= 4) {
-        put_number(bytes + size - 4, sum, 4);
+        bytes_put(bytes + size - 4, sum, 4);
     }
 }
 
 static uint8_t *put(uint8_t *at, uint32_t v, int n)
 {
-    put_number(at, v, n);
+    bytes_put(at, v, n);
     return at + n;
 }
 
@@ -120,6 +92,6 @@ size_t edit_write_blob(const struct carom_mesh_raw *raw, uint8_t *blob)
     for (uint32_t i = 0; i < 3 * raw->face_count; i++) {
         at = put(at, raw->faces[i / 3][i % 3], 2);
     }
-    edit_mend64(blob, (size_t)(at - blob) + 8);
+    bytes_mend(blob, (size_t)(at - blob) + 8);
     return (size_t)(at - blob) + 8;
 }

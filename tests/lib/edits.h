@@ -8,8 +8,7 @@
 
 /* Change up to four places before `size`. Lengths stay. */
 void edit_bytes(struct chance *c, uint8_t *bytes, size_t size);
-/* Write the FNV-1a of all bytes before to the end: of 64 bits for a snapshot and a blob, of 32 for a recording. */
-void edit_mend64(uint8_t *bytes, size_t size);
+/* Make the check sum at the end of a recording that of all bytes before. bytes_mend() is for snapshots and blobs. */
 void edit_mend32(uint8_t *bytes, size_t size);
 
 /* Write the blob of a mesh as SPEC.md, 3.3 lays it down, into EDIT_BLOB_BYTES; returns its size. */

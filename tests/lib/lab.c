@@ -42,6 +42,16 @@ int lab_finish(void)
     return tests.failed != 0 || tests.count == 0;
 }
 
+bool lab_given(const char *word, int count, char **words)
+{
+    for (int i = 0; i < count; i++) {
+        if (strcmp(words[i], word) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 int lab_expect(int result, const char *what)
 {
     if (result < 0) {

@@ -26,6 +26,8 @@ void lab_report(bool ok, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Print the plan; returns the exit status. */
 int lab_finish(void);
+/* True if a program was given a word as one of its arguments. */
+bool lab_given(const char *word, int count, char **words);
 
 /* Return the result, or end the program when it is an error. */
 int lab_expect(int result, const char *what);

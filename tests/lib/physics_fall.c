@@ -206,7 +206,7 @@ static void puck_and_rod(void)
     fixture_free(f);
 }
 
-/* What one bounce of a ball off the floor at a slant leaves: the speed along the floor and the spin. */
+/* One bounce of a ball off the floor at a slant: the speed along the floor and the spin after it. */
 static void bounce_ball(double mu, double across, double e, int cuts, carom_quat_q30 turn,
                         double *speed, double *spin)
 {

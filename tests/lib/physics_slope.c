@@ -90,32 +90,30 @@ static void slide(double mu, double degrees)
     fixture_free(f);
 }
 
-/* Whether a block stays for three seconds on a slope at mu = 1/2. */
+/* Whether a block of these sides is within `most` of its place after so many frames on a slope. */
+static bool rests(const char *name, double mu, double slope, const double sides[3], int frames,
+                  double most)
+{
+    struct fixture *f = physics_begin(name, mu);
+    bool rested;
+
+    lay(f, slope, sides[0], sides[1], sides[2]);
+    physics_start(f, 0);
+    run(f, frames);
+    rested = went(f, 1) < most;
+    fixture_free(f);
+    return rested;
+}
+
 static bool sticks(double slope)
 {
-    struct fixture *f = physics_begin("sticks", 0.5);
-    bool stays;
-
-    lay(f, slope, 1, 0.6, 0.3);
-    physics_start(f, 0);
-    run(f, 180);
-    stays = went(f, 1) < 0.01;
-    fixture_free(f);
-    return stays;
+    return rests("sticks", 0.5, slope, (const double[]){1, 0.6, 0.3}, 180, 0.01);
 }
 
 /* Whether a block twice and a half as high as wide stands; friction holds it. */
 static bool stands(double slope)
 {
-    struct fixture *f = physics_begin("stands", 2);
-    bool stays;
-
-    lay(f, slope, 0.4, 0.6, 1);
-    physics_start(f, 0);
-    run(f, 240);
-    stays = went(f, 1) < 0.05;
-    fixture_free(f);
-    return stays;
+    return rests("stands", 2, slope, (const double[]){0.4, 0.6, 1}, 240, 0.05);
 }
 
 /* A block pushed along a level floor. */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bytes.h"
 #include "edits.h"
 #include "recording.h"
 #include "saved.h"
@@ -117,7 +118,7 @@ void target_snapshot(const uint8_t *bytes, size_t count)
     s = all[number];
     memcpy(changed, s->good, s->size);
     edit_bytes(&c, changed, s->size - 8);
-    edit_mend64(changed, s->size);
+    bytes_mend(changed, s->size);
     target_expect(saved_try_load(s, changed, s->size, &result), result);
     for (int i = 0; i < steps && result >= 0; i++) {
         const char *fault = fuzz_try_step(s->world, &result);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bytes.h"
 #include "carom_shapes.h"
 #include "edits.h"
 #include "target.h"
@@ -82,7 +83,7 @@ static int make_blob(struct carom_mesh_raw *raw)
         edit_bytes(&fuzz.chance, blob, fuzz_pick(&fuzz, 2) ? 16 : size);
     }
     size -= fuzz_pick(&fuzz, 8) ? 0 : (size_t)fuzz_pick(&fuzz, (int)size);
-    edit_mend64(blob, size);
+    bytes_mend(blob, size);
     return carom_mesh_read(raw, blob, size, room, sizeof room);
 }
 
