@@ -340,8 +340,8 @@ pictures: ## the pictures of README.md that boards and scenes make, to docs/
 compare: ## compare other engines with Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
 ifneq ($(SHORT),)
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE)
-	@$(SUBMAKE) BOARD=host build/tools/carom-heaps
-	@tools/compare.py --short build/tools/carom-heaps
+	@$(SUBMAKE) BOARD=host build/tools/carom-compare build/tools/carom-heaps $(COMPARE_MESHES)
+	@tools/compare.py --short build/tools/carom-compare build/tools/carom-heaps $(firstword $(COMPARE_SCENES))
 	@tools/check_compare
 else
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE) $(NEED_WASM)

@@ -10,8 +10,8 @@ best of several in one run; figures are means of a phase. Phases: apart, the box
 do but no faces cross; contact, faces cross. out/recall.csv has the part of the crossing face pairs that was found. Carom
 and the paper's way find face pairs, FCL pairs and points, ODE and Bullet points. HEAPS is build/tools/carom-heaps,
 WASM Carom's heap as WebAssembly (tools/compare_heaps.py). All figures go to out/compare.csv, those that are shown to
-docs/compare.csv, docs/compare.md and the table in README.md. With --short one heap is counted and compared with the
-committed figures.
+docs/compare.csv, docs/compare.md and the table in README.md. With --short one scene's queries are compared with FCL, and one
+heap is counted and compared with the committed figures.
 
 It fails if a query of Carom takes more than half of ODE's instructions, misses a crossing pair, or disagrees with FCL on
 contact; and if a heap takes more than its bound.
@@ -36,17 +36,17 @@ def instructions(program, meshes):
     return {(phase, who): total / int(count) for (phase, who, count), total in found.items()}
 
 
-def scene_rows(program, scene, meshes):
-    """The figures of the queries, the rows of RECALL, and the faults."""
+def timed(program, scene, meshes):
+    """What the program says of a scene: frames, times, agreement with FCL, crossing pairs found."""
     said = compare_heaps.run([program, "time", *meshes])
-    counted = instructions(program, meshes)
     frames = {row[1]: row[2] for row in said if row[0] == "phase"}
     print("%s: %s" % (scene, ", ".join("%s %s" % (name, n) for name, n in frames.items())))
-    wrong = []
-    rows = [[scene, phase, contender, round(counted[phase, contender]), float(time)]
-            for kind, phase, contender, time in [row for row in said if len(row) == 4]
-            if kind == "microseconds"]
-    recall = []
+    return said
+
+
+def findings(said, scene):
+    """The rows of RECALL, and the faults: a pose on which another answer than FCL's was given, a crossing pair missed."""
+    recall, wrong = [], []
     for kind, poses, who, *numbers in said:
         if kind == "agreement":
             asked, differ = map(int, numbers)
@@ -60,7 +60,17 @@ def scene_rows(program, scene, meshes):
             recall.append([scene, who, crossing, found, asked, differ])
             if found < crossing and who != "paper":
                 wrong.append("%s: %s misses crossing pairs" % (scene, who))
-    return rows, recall, wrong
+    return recall, wrong
+
+
+def scene_rows(program, scene, meshes):
+    """The figures of the queries, the rows of RECALL, and the faults."""
+    said = timed(program, scene, meshes)
+    counted = instructions(program, meshes)
+    rows = [[scene, phase, contender, round(counted[phase, contender]), float(time)]
+            for kind, phase, contender, time in [row for row in said if len(row) == 4]
+            if kind == "microseconds"]
+    return (rows, *findings(said, scene))
 
 
 def ratios(rows):
@@ -112,8 +122,10 @@ def verdict(wrong):
     return 1 if wrong else 0
 
 
-def short(heaps):
-    return verdict(compare_heaps.complaints(compare_heaps.short(heaps), compare_table.read()))
+def short(program, heaps, each):
+    scene, meshes = each.split("=")
+    _, wrong = findings(timed(program, scene, meshes.split(",")), scene)
+    return verdict(wrong + compare_heaps.complaints(compare_heaps.short(heaps), compare_table.read()))
 
 
 def main(program, heaps, image, *scenes):

@@ -30,6 +30,7 @@ class Carom : public Contender
         still_ = expect(carom_body_add(world_, &def));
         def.mesh = &moving.carom;
         def.stationary = false;
+        def.overlap = CAROM_OVERLAP_PASS; /* poses may cross the ground */
         moving_ = expect(carom_body_add(world_, &def));
     }
     const char *name() const override
@@ -38,7 +39,10 @@ class Carom : public Contender
     }
     void place(const Pose &pose) override
     {
-        expect(carom_body_set(world_, moving_, &pose.state));
+        carom_body_state state = pose.state;
+
+        state.overlap = CAROM_OVERLAP_PASS;
+        expect(carom_body_set(world_, moving_, &state));
     }
     void query() override
     {
