@@ -14,7 +14,8 @@ import tempfile
 
 CONTENDERS = ["carom", "ode", "bullet"]
 PHASES = ["falling", "settling", "resting", "asleep"]
-SEEDS = {8: 4, 16: 4, 32: 3, 64: 2, 128: 2, 256: 1}  # heaps by number of boxes; the figure is their mean
+# Seeds of heaps by number of boxes; the figure is their mean. In the heap of 256 boxes and seed 1 boxes overlap at first.
+SEEDS = {8: [1, 2, 3, 4], 16: [1, 2, 3, 4], 32: [1, 2, 3], 64: [1, 2], 128: [1, 2], 256: [2]}
 ASLEEP = 32  # boxes of Carom's heap that sleeps
 SHORT = 32  # boxes: the heap of seed 1 that CI counts
 WASM = 100  # boxes
@@ -87,7 +88,7 @@ def short(program):
 def long(program):
     """Figures of all heaps, of a sleeping one, and of the scene `head`."""
     heaps = [(who, str(boxes), str(seed)) for boxes, seeds in SEEDS.items()
-             for seed in range(1, seeds + 1) for who in CONTENDERS]
+             for seed in seeds for who in CONTENDERS]
     asleep = [("asleep", str(ASLEEP), "1")]
     scene = [(who, "head") for who in CONTENDERS]
     found = all_steps(program, scene + heaps + asleep)
