@@ -151,7 +151,7 @@ size_t carom_world_bytes(const struct carom_caps *caps);
  * solve, which takes bytes for each contact and for as many pairs as have one.
  */
 /** Bytes of the working room for a search. */
-#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1712, 1744)
+#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1880, 1952)
 /** Bytes of the working room for each contact of a solve. */
 #define CAROM_WORK_BYTES CAROM_BYTES_(200, 208)
 /** Bytes of the working room for each pair of a solve that has a contact. */

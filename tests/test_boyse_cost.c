@@ -46,8 +46,8 @@ static void tally_end(const struct tally *t, const char *name, uint32_t bar)
 }
 
 /* Measure one test, the call itself included. */
-static bool timed_first(const struct boyse_pair *pair, const struct candidate *c,
-                        struct boyse_hit *hit, uint32_t *cost)
+static bool timed_first(struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
+                        uint32_t *cost)
 {
     uint32_t roots = 0, start, empty, ticks;
     bool is_hit;

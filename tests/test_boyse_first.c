@@ -330,7 +330,6 @@ static void test_polynomial(void)
     for (int n = 0; n < CASES; n++) {
         struct candidate c;
         int64_t a_q40[BOYSE_DEGREE + 1];
-        struct boyse_places start;
         double s2[2];
         int degree;
 
@@ -338,8 +337,8 @@ static void test_polynomial(void)
             make(n / (CASES / PAIRINGS));
         }
         random_case(&r, &c, n % 3);
-        boyse_place_start(&duo.pair, &c, &start);
-        degree = boyse_polynomial(&duo.pair, &c, &start, a_q40);
+        boyse_place_start(&duo.pair, &c);
+        degree = boyse_polynomial(&duo.pair, &c, a_q40);
         CHECK_EQ(degree, duo.body[1].def.moving ? 6 : 4);
         for (int k = 0; k < 2; k++) {
             s2[k] = real_dot(duo.motion[k].u, duo.motion[k].u);

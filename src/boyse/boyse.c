@@ -11,8 +11,7 @@
  * Sign of a pair that touches at the start: as near as BOYSE_ROOT_LEVEL_Q22, or overlapping. 0 if the
  * pair does not touch.
  */
-static int touches_at_start(const struct boyse_pair *pair, const struct candidate *c,
-                            const struct boyse_places *start, int64_t gap_q40)
+static int touches_at_start(struct boyse_pair *pair, const struct candidate *c, int64_t gap_q40)
 {
     struct boyse_touch touch;
     int32_t limit_q22 = pair->skin_q22 / 2;
@@ -21,7 +20,7 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
     if (carom_abs(gap_q40) >> 18 >= limit_q22) {
         return 0;
     }
-    boyse_test(pair, c, start, 0, &touch);
+    boyse_test(pair, c, 0, &touch);
     return touch.valid && touch.gap_q22 <= BOYSE_ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22
                ? touch.sign
                : 0;
@@ -31,12 +30,11 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
  * Distance of the edges at a time, or of their lines if those do not face each other: the normal of
  * the lines may flip during the path.
  */
-static int64_t apart_at(const struct boyse_pair *pair, const struct candidate *c,
-                        const struct boyse_places *start, int32_t t_q30)
+static int64_t apart_at(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
 {
     struct boyse_touch touch;
 
-    boyse_test(pair, c, start, t_q30, &touch);
+    boyse_test(pair, c, t_q30, &touch);
     return touch.valid ? touch.gap_q22 : carom_abs(touch.gap_q22);
 }
 
@@ -44,8 +42,8 @@ static int64_t apart_at(const struct boyse_pair *pair, const struct candidate *c
  * The last time before `root` at which the features are farther apart than `gap`, to 1/4096 of its
  * distance from the root. Uses the exact test alone: back in growing steps, then bisection.
  */
-static int32_t last_apart(const struct boyse_pair *pair, const struct candidate *c,
-                          const struct boyse_places *start, int32_t gap_q22, int32_t root_q30)
+static int32_t last_apart(struct boyse_pair *pair, const struct candidate *c, int32_t gap_q22,
+                          int32_t root_q30)
 {
     int32_t far = root_q30, near = root_q30, back = BOYSE_BACK_Q30, slack;
 
@@ -53,12 +51,12 @@ static int32_t last_apart(const struct boyse_pair *pair, const struct candidate 
         near = far;
         far = root_q30 > back ? root_q30 - back : 0;
         back = back < CAROM_ONE_Q30 / 2 ? 2 * back : CAROM_ONE_Q30;
-    } while (far > 0 && apart_at(pair, c, start, far) <= gap_q22);
+    } while (far > 0 && apart_at(pair, c, far) <= gap_q22);
     slack = 1 + ((root_q30 - far) >> 12);
     while (near - far > slack) {
         int32_t middle = far + (near - far) / 2;
 
-        *(apart_at(pair, c, start, middle) > gap_q22 ? &far : &near) = middle;
+        *(apart_at(pair, c, middle) > gap_q22 ? &far : &near) = middle;
     }
     return far;
 }
@@ -67,7 +65,7 @@ static int32_t last_apart(const struct boyse_pair *pair, const struct candidate 
  * True if the exact test confirms a gap near 0 at a root. For nearly parallel edges P may be small
  * because |w| is, and its rounding is a gap of rounding / |w|.
  */
-static bool is_there(const struct boyse_pair *pair, const struct candidate *c,
+static bool is_there(struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_touch *touch)
 {
     return c->kind != CANDIDATE_EDGE_EDGE || carom_abs(touch->gap_q22) <= pair->skin_q22 / 2;
@@ -77,8 +75,7 @@ static bool is_there(const struct boyse_pair *pair, const struct candidate *c,
  * Go through the roots until one is a hit. shift_q40 is what was subtracted from P. Sets `far` if a
  * root failed only by its gap.
  */
-static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
-                      const struct boyse_places *start, const struct curve *curve,
+static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const struct curve *curve,
                       int64_t shift_q40, struct boyse_hit *hit, bool *far)
 {
     struct walk walk;
@@ -94,24 +91,19 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 
         /* a vertex that leaves through the back of a face is no hit */
         if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
-            scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
+            scale_q30 = boyse_test(pair, c, walk.t_q30, &touch);
         }
         touch.valid = touch.valid && touch.sign * walk.slope8 < 0;
         *far = *far || (touch.valid && !is_there(pair, c, &touch));
         if (touch.valid && is_there(pair, c, &touch)) {
-            struct opening o;
+            bool edges = c->kind == CANDIDATE_EDGE_EDGE;
+            struct opening o = {pair,  edges, curve, touch.sign,
+                                false, 0,     0,     curve_units(curve, touch.sign * shift_q40)};
 
-            o.pair = pair;
-            o.edges = c->kind == CANDIDATE_EDGE_EDGE ? start : NULL;
-            o.curve = curve;
-            o.sign = touch.sign;
-            o.shift = curve_units(curve, touch.sign * shift_q40);
             hit->root_q30 = walk.t_q30;
-            if (c->kind == CANDIDATE_EDGE_EDGE && scale_q30 < PARALLEL_Q30 && !boyse_steady(pair)) {
-                hit->t_q30 = last_apart(pair, c, start, pair->skin_q22 / 2, walk.t_q30);
-                return true;
-            }
-            hit->t_q30 = boyse_event_q30(&o, last_root, &walk, scale_q30);
+            hit->t_q30 = edges && scale_q30 < PARALLEL_Q30 && !boyse_steady(pair)
+                             ? last_apart(pair, c, pair->skin_q22 / 2, walk.t_q30)
+                             : boyse_event_q30(&o, last_root, &walk, scale_q30);
             return true;
         }
         last_root = walk.t_q30;
@@ -124,8 +116,7 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
  * The amount by which the sought surface is nearer than the true one, as a value of P: at most half
  * of the event gap, however small the edges' angle.
  */
-static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
-                         const struct boyse_places *start)
+static int64_t level_q40(struct boyse_pair *pair, const struct candidate *c)
 {
     int64_t level = (int64_t)BOYSE_ROOT_LEVEL_Q22 << 18, most;
     int32_t largest;
@@ -133,7 +124,7 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
     if (c->kind != CANDIDATE_EDGE_EDGE) {
         return level;
     }
-    largest = fix_largest(start->w) >> (boyse_steady(pair) ? 0 : start->up);
+    largest = fix_largest(pair->start.w) >> (boyse_steady(pair) ? 0 : pair->start.up);
     most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
     return level < most ? level : most;
 }
@@ -160,43 +151,48 @@ static int64_t lower(int64_t gap_q40, int touching, int64_t level)
 
 /*
  * Test nearly parallel edges of turning bodies by the exact test alone: true if they have met by
- * the end of the path. P's rounding over their sine exceeds the way of slow bodies.
+ * the end of the path, earlier than `before`. P's rounding over their sine exceeds the way of slow
+ * bodies.
  */
-static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
-                     const struct boyse_places *start, struct boyse_hit *hit)
+static FIX_OWN_FRAME bool have_met(struct boyse_pair *pair, const struct candidate *c,
+                                   int32_t before_q30, struct boyse_hit *hit)
 {
     struct boyse_touch from, to;
-    int32_t event_q22 = pair->skin_q22 / 2,
+    int32_t event_q22 = pair->skin_q22 / 2, t_q30,
             root = CAROM_ONE_Q30; /* a time at which they have met */
 
-    boyse_test(pair, c, start, CAROM_ONE_Q30, &to);
+    boyse_test(pair, c, CAROM_ONE_Q30, &to);
     if (!to.valid || to.gap_q22 > BOYSE_ROOT_LEVEL_Q22) {
         return false;
     }
-    boyse_test(pair, c, start, 0, &from);
+    boyse_test(pair, c, 0, &from);
     if (from.valid && (from.gap_q22 <= to.gap_q22 || from.gap_q22 <= -event_q22)) {
         return false;
     }
     for (int32_t step = CAROM_ONE_Q30 / 2; step >= CAROM_ONE_Q30 >> 12; step /= 2) {
-        boyse_test(pair, c, start, root - step, &to);
+        boyse_test(pair, c, root - step, &to);
         root -= to.valid && to.gap_q22 <= BOYSE_ROOT_LEVEL_Q22 ? step : 0;
     }
-    boyse_test(pair, c, start, root, &to);
+    boyse_test(pair, c, root, &to);
     if (to.gap_q22 < -event_q22) {
         return false; /* they came to face each other there, deep in overlap */
     }
+    t_q30 = last_apart(pair, c, event_q22, root);
+    if (t_q30 >= before_q30) {
+        return false;
+    }
     hit->root_q30 = root;
-    hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30);
+    hit->t_q30 = t_q30;
     return true;
 }
 
-static bool first_by_roots(const struct boyse_pair *pair, const struct candidate *c,
-                           const struct boyse_places *start, struct boyse_hit *hit, uint32_t *roots)
+static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct candidate *c,
+                                         struct boyse_hit *hit, uint32_t *roots)
 {
     struct curve curve;
     int64_t a[BOYSE_DEGREE + 1], shift_q40 = 0;
-    int degree = boyse_polynomial(pair, c, start, a);
-    int touching = touches_at_start(pair, c, start, a[0]);
+    int degree = boyse_polynomial(pair, c, a);
+    int touching = touches_at_start(pair, c, a[0]);
 
     if (touching * a[1] < 0) {
         ++*roots;
@@ -204,7 +200,7 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
         return true;
     }
     if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
-        shift_q40 = lower(a[0], touching, level_q40(pair, c, start));
+        shift_q40 = lower(a[0], touching, level_q40(pair, c));
     }
     /*
      * Across a convex edge or vertex a point is over no face until it is at the surface. So a root
@@ -217,13 +213,13 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
         a[0] -= shift_q40;
         found = curve_init(&curve, a, degree);
         *roots += found && tries == 0;
-        if (found && first_hit(pair, c, start, &curve, shift_q40, hit, &far)) {
+        if (found && first_hit(pair, c, &curve, shift_q40, hit, &far)) {
             return true;
         }
         a[0] += shift_q40;
         if (touching != 0 && c->kind != CANDIDATE_EDGE_EDGE && a[0] < 0) {
             /* touches from behind, beside the face: it may come out and go in again */
-            shift_q40 = level_q40(pair, c, start);
+            shift_q40 = level_q40(pair, c);
             touching = 0;
             continue;
         }
@@ -234,23 +230,19 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
     }
 }
 
-bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
+bool boyse_first(struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
                  uint32_t *roots)
 {
-    struct boyse_places start;
-    struct boyse_hit met;
     bool found;
 
     if (!boyse_may_meet(pair, c)) {
         return false;
     }
-    boyse_place_start(pair, c, &start);
-    found = first_by_roots(pair, c, &start, hit, roots);
-    if (c->kind == CANDIDATE_EDGE_EDGE && start.up >= NEARLY_PARALLEL && !boyse_steady(pair) &&
-        have_met(pair, c, &start, &met) && (!found || met.t_q30 < hit->t_q30)) {
-        hit->t_q30 = met.t_q30;
-        hit->root_q30 = met.root_q30;
-        return true;
+    boyse_place_start(pair, c);
+    found = first_by_roots(pair, c, hit, roots);
+    if (c->kind == CANDIDATE_EDGE_EDGE && pair->start.up >= NEARLY_PARALLEL &&
+        !boyse_steady(pair)) {
+        found |= have_met(pair, c, found ? hit->t_q30 : INT32_MAX, hit);
     }
     return found;
 }

@@ -62,13 +62,35 @@ struct boyse_view {
     int fine;                 /* bits beyond q22 that the lengths in P can have, 0 .. 7 */
 };
 
-/* A pair of bodies on their paths, prepared for the tests of its candidates. */
+/*
+ * A vertex and a face, or two edges, at some time of the path: in the mesh axes of view->to, from
+ * its centre of mass.
+ */
+struct boyse_places {
+    carom_v3_q22 vertex; /* the vertex, or where edge a starts; of view->from */
+    const int32_t *n;    /* unit normal of the face */
+
+    const struct carom_edge *edge_a, *edge_b;
+    carom_v3_q22 start_b; /* where edge b starts */
+    int32_t e[3];         /* unit directions of edges a and b */
+    const int32_t *f;
+    int32_t w[3], d[3]; /* w = e x f times 2^up; d from a point of b's line to a's start */
+    int32_t up;         /* 0 unless the edges are nearly parallel */
+    int32_t on_b_q22;   /* place of d's point along edge b */
+};
+
+/*
+ * A pair of bodies on their paths, prepared for the tests of its candidates, and the features of
+ * the candidate at hand. These are here and not on the stack, since a step is deepest there.
+ */
 struct boyse_pair {
     struct body *a, *b;
     int32_t offset_q22[3];     /* origin of b's path less that of a's */
     int32_t skin_q22;          /* EPS: the larger of both skins */
     int32_t turn_q30;          /* 2 (s_a + s_b): upper bound on what the bodies turn by, radians */
     struct boyse_view view[2]; /* [0]: a seen from b, [1]: b seen from a */
+    struct boyse_places start; /* at the start of the path; boyse_place_start sets it */
+    struct boyse_places now;   /* at the time of the exact test */
 };
 
 /* The exact test of two features at a time: whether they face each other. */
@@ -109,7 +131,7 @@ static inline void boyse_pair_for(struct boyse_pair *pair, const struct candidat
  * Exact test at time t: whether the features face each other, how far apart they are, along which
  * normal (world axes).
  */
-void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
+void boyse_touch(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
                  struct boyse_touch *touch);
 
 /*
@@ -120,7 +142,7 @@ void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32
  *   clear_q22  in/out  lowered to a bound on how far points of the bodies must approach each other
  *                      before the features meet; the margin limits it
  */
-bool boyse_static(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
+bool boyse_static(struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
                   int32_t margin_q22, struct boyse_touch *touch, int32_t *clear_q22);
 
 /*
@@ -132,7 +154,7 @@ bool boyse_static(const struct boyse_pair *pair, const struct candidate *c, int3
  * Units    t in slices, q30, rounded down so that the surfaces do not cross at it Returns  true if
  * there is a hit Source   paper section 2, figures 2 and 3; Boyse's cases (i) and (ii)
  */
-bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
+bool boyse_first(struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
                  uint32_t *roots);
 
 #endif

@@ -54,7 +54,7 @@ static void set_wanted(struct opening *o, int32_t t_q30, int32_t scale_q30)
 static struct sample sample_at(struct opening *o, int32_t t_q30)
 {
     if (o->by_time) {
-        set_wanted(o, t_q30, o->edges ? boyse_scale(o->pair, o->edges, t_q30) : CAROM_ONE_Q30);
+        set_wanted(o, t_q30, o->edges ? boyse_scale(o->pair, t_q30) : CAROM_ONE_Q30);
     }
     return (struct sample){t_q30, open_at(o, t_q30) - o->wanted};
 }

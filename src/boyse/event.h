@@ -13,7 +13,7 @@
  */
 struct opening {
     const struct boyse_pair *pair;
-    const struct boyse_places *edges; /* the edges at the start; NULL for a vertex and a face */
+    bool edges; /* two edges, not a vertex and a face */
     const struct curve *curve;
     int sign;
     bool by_time;

@@ -26,23 +26,6 @@ static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,
     return &pair->view[c->kind == CANDIDATE_FACE_VERTEX];
 }
 
-/*
- * A vertex and a face, or two edges, at some time of the path: in the mesh axes of view->to, from
- * its centre of mass.
- */
-struct boyse_places {
-    carom_v3_q22 vertex; /* the vertex, or where edge a starts; of view->from */
-    const int32_t *n;    /* unit normal of the face */
-
-    const struct carom_edge *edge_a, *edge_b;
-    carom_v3_q22 start_b; /* where edge b starts */
-    int32_t e[3];         /* unit directions of edges a and b */
-    const int32_t *f;
-    int32_t w[3], d[3]; /* w = e x f times 2^up; d from a point of b's line to a's start */
-    int32_t up;         /* 0 unless the edges are nearly parallel */
-    int32_t on_b_q22;   /* place of d's point along edge b */
-};
-
 /* Set everything of two edges but `vertex` and e, which are given. */
 void boyse_complete_edges(struct boyse_places *p);
 
@@ -59,9 +42,8 @@ static inline int64_t boyse_plane_gap_q52(const struct boyse_view *view, const s
     return carom_dot(p->n, p->vertex.c) - carom_shl(view->to->def.mesh->faces[c->j].offset_q22, 30);
 }
 
-/* Place the features at the start. */
-void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
-                       struct boyse_places *p);
+/* Set pair->start: place the features of the candidate at hand at the start. */
+void boyse_place_start(struct boyse_pair *pair, const struct candidate *c);
 
 /*
  * Early test: true if the features may meet on the path, by first-order motion and a bound of the
@@ -74,20 +56,20 @@ bool boyse_may_meet(const struct boyse_pair *pair, const struct candidate *c);
  * edges have P = 2^up |w| gap, else P has the factor |w| alone.
  */
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
-                     const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1]);
+                     int64_t a_q40[BOYSE_DEGREE + 1]);
 
 /* |w| of two edges at a time, as it is a factor of P. */
-int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30);
+int32_t boyse_scale(const struct boyse_pair *pair, int32_t t_q30);
 
 /*
- * Exact test without world places: sets touch->gap_q22, valid and sign. Returns |w| of two edges at
- * that time as it is in P; 1 for a vertex and a face.
+ * Exact test from pair->start without world places: sets touch->gap_q22, valid and sign. Returns
+ * |w| of two edges at that time as it is in P; 1 for a vertex and a face.
  */
-int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
-                   const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch);
+int32_t boyse_test(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
+                   struct boyse_touch *touch);
 
-/* boyse_touch at the start, with the places given. */
+/* boyse_touch at the start, from pair->start. */
 void boyse_touch_start(const struct boyse_pair *pair, const struct candidate *c,
-                       const struct boyse_places *start, struct boyse_touch *touch);
+                       struct boyse_touch *touch);
 
 #endif

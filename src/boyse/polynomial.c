@@ -27,9 +27,9 @@ void boyse_complete_edges(struct boyse_places *p)
     }
 }
 
-void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
-                       struct boyse_places *p)
+void boyse_place_start(struct boyse_pair *pair, const struct candidate *c)
 {
+    struct boyse_places *p = &pair->start;
     const struct boyse_view *view = boyse_view(pair, c);
     const struct carom_mesh *from = view->from->def.mesh, *to = view->to->def.mesh;
     uint32_t v = c->i;
@@ -417,8 +417,9 @@ static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_pla
 }
 
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
-                     const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1])
+                     int64_t a_q40[BOYSE_DEGREE + 1])
 {
+    const struct boyse_places *start = &pair->start;
     const struct boyse_view *view = boyse_view(pair, c);
 
     if (c->kind == CANDIDATE_EDGE_EDGE) {

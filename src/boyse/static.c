@@ -53,19 +53,18 @@ static int32_t clear_of(const struct candidate *c, const struct boyse_places *p,
     return left_q22 - (up > 0 ? CLEAR_NOISE_Q22 << (up - 2) : CLEAR_NOISE_Q22);
 }
 
-bool boyse_static(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
+bool boyse_static(struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
                   int32_t margin_q22, struct boyse_touch *touch, int32_t *clear_q22)
 {
     int32_t left_q22 = fix_smaller(margin_q22, -deepest_q22 - pair->skin_q22 / 2);
-    struct boyse_places p;
     bool near;
 
-    boyse_place_start(pair, c, &p);
-    near = is_near(boyse_view(pair, c), c, &p, deepest_q22, margin_q22);
+    boyse_place_start(pair, c);
+    near = is_near(boyse_view(pair, c), c, &pair->start, deepest_q22, margin_q22);
     if (near) {
-        boyse_touch_start(pair, c, &p, touch);
+        boyse_touch_start(pair, c, touch);
         left_q22 = left_between(pair, c, touch);
     }
-    *clear_q22 = fix_smaller(*clear_q22, clear_of(c, &p, left_q22));
+    *clear_q22 = fix_smaller(*clear_q22, clear_of(c, &pair->start, left_q22));
     return near;
 }

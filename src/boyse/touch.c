@@ -373,8 +373,9 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
 
 /* -------------------------------------------------------------- the exact test */
 
-int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30)
+int32_t boyse_scale(const struct boyse_pair *pair, int32_t t_q30)
 {
+    const struct boyse_places *start = &pair->start;
     struct moment m;
     int32_t e[3], w[3];
 
@@ -387,19 +388,18 @@ int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *st
     return (int32_t)fix_sqrt((uint64_t)carom_dot(w, w));
 }
 
-int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
-                   const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch)
+int32_t boyse_test(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
+                   struct boyse_touch *touch)
 {
     struct moment m;
-    struct boyse_places p;
     struct edge_normal n;
 
     set_moment(&m, boyse_view(pair, c), t_q30);
-    place(&m, c, start, &p);
+    place(&m, c, &pair->start, &pair->now);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
-        return test_edges(&m, &p, touch, &n);
+        return test_edges(&m, &pair->now, touch, &n);
     }
-    test_vertex_face(&m, c, &p, touch);
+    test_vertex_face(&m, c, &pair->now, touch);
     return CAROM_ONE_Q30;
 }
 
@@ -428,24 +428,23 @@ static void touch_at(const struct moment *m, const struct candidate *c,
     to_world(m, touch->normal.c);
 }
 
-void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
+void boyse_touch(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
                  struct boyse_touch *touch)
 {
     struct moment m;
-    struct boyse_places start, p;
 
-    boyse_place_start(pair, c, &start);
+    boyse_place_start(pair, c);
     set_moment(&m, boyse_view(pair, c), t_q30);
-    place(&m, c, &start, &p);
-    touch_at(&m, c, &p, touch);
+    place(&m, c, &pair->start, &pair->now);
+    touch_at(&m, c, &pair->now, touch);
 }
 
 void boyse_touch_start(const struct boyse_pair *pair, const struct candidate *c,
-                       const struct boyse_places *start, struct boyse_touch *touch)
+                       struct boyse_touch *touch)
 {
     struct moment m;
 
     m.view = boyse_view(pair, c);
     m.from.turns = m.to.turns = false;
-    touch_at(&m, c, start, touch);
+    touch_at(&m, c, &pair->start, touch);
 }

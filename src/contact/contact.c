@@ -149,8 +149,8 @@ static int64_t drifted_q22(const struct boyse_pair *pair, const struct candidate
     return carom_abs(contact_rise_q40(&drift, normal)) >> 18;
 }
 
-bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
-                 const struct candidate *c, int32_t margin_q22, int32_t *clear_q22)
+bool contact_add(struct contact_list *list, struct boyse_pair *pair, const struct candidate *c,
+                 int32_t margin_q22, int32_t *clear_q22)
 {
     int32_t deepest = -(pair->skin_q22 * 5 / 2);
     int32_t most = mesh_drift_most(pair->b->def.mesh);

@@ -265,8 +265,8 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
  * Insert a candidate if its features touch within `margin` in the placed poses. Returns false if
  * the list is full. clear_q22: see boyse_static.
  */
-bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
-                 const struct candidate *c, int32_t margin_q22, int32_t *clear_q22);
+bool contact_add(struct contact_list *list, struct boyse_pair *pair, const struct candidate *c,
+                 int32_t margin_q22, int32_t *clear_q22);
 
 /*
  * Make sure that a hit is among the contacts, with the normal found at the root and the place of

@@ -31,6 +31,16 @@
 #define FIX_APART
 #endif
 
+/*
+ * A function that keeps its locals out of its caller's frame, because a deep chain of calls does
+ * not go through it.
+ */
+#if defined __GNUC__
+#define FIX_OWN_FRAME __attribute__((noinline))
+#else
+#define FIX_OWN_FRAME
+#endif
+
 /* The four library functions that the engine may call; <string.h> is not freestanding. */
 void *memcpy(void *restrict to, const void *restrict from, size_t bytes);
 void *memmove(void *to, const void *from, size_t bytes);

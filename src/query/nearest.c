@@ -363,12 +363,30 @@ static bool overlap(struct carom_world *w, int a, int b)
             w->bodies[b].def.mesh->raw.kind == CAROM_SOLID && carom_query_inside(w, b, a) > 0);
 }
 
+/* Search both bodies, whose centres are less than FAR_Q32 from each other, in b's axes. */
+static FIX_OWN_FRAME void find_nearest(const struct carom_world *world, int a, int b,
+                                       const int64_t at_q32[3], const carom_m3_q30 r[2],
+                                       struct carom_closest *out)
+{
+    struct nearest n;
+
+    interfere_relate(&n.axes, &r[1], &r[0]);
+    for (int k = 0; k < 3; k++) {
+        n.at_q22[k] = carom_round(at_q32[k], 10);
+    }
+    n.body[0] = &world->bodies[a];
+    n.body[1] = &world->bodies[b];
+    n.best_q40 = UINT64_MAX;
+    begin_nearest(&n);
+    search(&n);
+    complete(&n, &world_now(world)->bodies[b], out);
+}
+
 int carom_closest_points(struct carom_world *world, int a, int b, struct carom_closest *out)
 {
     const struct body_state *states;
-    carom_m3_q30 r_a, r_b;
-    int64_t at[3];
-    struct nearest n;
+    carom_m3_q30 r[2];
+    int64_t at_q32[3];
 
     if (!world || !out) {
         return CAROM_ERR_NULL;
@@ -381,26 +399,17 @@ int carom_closest_points(struct carom_world *world, int a, int b, struct carom_c
     }
     states = world_now(world)->bodies;
     for (int k = 0; k < 3; k++) {
-        at[k] = states[a].position.c[k] - states[b].position.c[k];
+        at_q32[k] = states[a].position.c[k] - states[b].position.c[k];
     }
-    fix_matrix(&r_a, &states[a].rotation);
-    fix_matrix(&r_b, &states[b].rotation);
-    fix_rotate_back(at, &r_b, at);
-    if (!world_each_within(at, FAR_Q32)) {
+    fix_matrix(&r[0], &states[a].rotation);
+    fix_matrix(&r[1], &states[b].rotation);
+    fix_rotate_back(at_q32, &r[1], at_q32);
+    if (!world_each_within(at_q32, FAR_Q32)) {
         return CAROM_ERR_RANGE;
     }
     if (overlap(world, a, b)) {
         return CAROM_ERR_OVERLAP;
     }
-    interfere_relate(&n.axes, &r_b, &r_a);
-    for (int k = 0; k < 3; k++) {
-        n.at_q22[k] = carom_round(at[k], 10);
-    }
-    n.body[0] = &world->bodies[a];
-    n.body[1] = &world->bodies[b];
-    n.best_q40 = UINT64_MAX;
-    begin_nearest(&n);
-    search(&n);
-    complete(&n, &states[b], out);
+    find_nearest(world, a, b, at_q32, r, out);
     return CAROM_OK;
 }

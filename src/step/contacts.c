@@ -169,7 +169,7 @@ static void note_hits(struct step *s)
 }
 
 /* Change of a contact's gap on the present paths up to a time, q22. */
-static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
+static int64_t gap_change(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
 {
     struct boyse_touch from, to;
 
@@ -182,7 +182,7 @@ static int64_t gap_change(const struct boyse_pair *pair, const struct candidate 
  * Opening of a gap, with an allowance for rounding. A lasting contact takes the slowest rate on the
  * way: the turn of a path is fastest at its ends, and a gap that opens at the end may close before.
  */
-static int64_t opening(const struct boyse_pair *pair, const struct contact *c)
+static int64_t opening(struct boyse_pair *pair, const struct contact *c)
 {
     int64_t least_q22 = gap_change(pair, &c->key, CAROM_ONE_Q30);
 

@@ -91,7 +91,7 @@ static bool hits_in_the_past(const struct step *s)
     return false;
 }
 
-static int32_t gap_at(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
+static int32_t gap_at(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
 {
     struct boyse_touch touch;
 
@@ -105,7 +105,8 @@ static int32_t gap_at(const struct boyse_pair *pair, const struct candidate *c, 
  * is the hit. A path that ends nearer is left where the gap is a quarter of the skin, or as large
  * as at its start if that is less. A gap that opened is no hit, however small it was.
  */
-static void meet_at_end(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30)
+static FIX_OWN_FRAME void meet_at_end(struct step *s, uint32_t number, int32_t from_q30,
+                                      int32_t to_q30)
 {
     struct pair_work *m = &s->w->meetings[number];
     const struct candidate c = {(uint16_t)number, m->kind, m->i, m->j};

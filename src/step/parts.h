@@ -169,7 +169,7 @@ int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v);
  * Put off a hit that takes no time and could not be solved there, to the first time at which it can
  * be. True if that is later.
  */
-bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit);
+bool step_put_off(struct boyse_pair *pair, struct boyse_hit *hit);
 
 /* Find the next hit of a pair; of all pairs that have a member. */
 int step_search(struct step *s, uint32_t number);

@@ -17,7 +17,7 @@ struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 }
 
 /* Gap of the features along the normal of the root; *valid is true if they face each other. */
-static int32_t gap_by(const struct boyse_pair *pair, const struct candidate *c, int8_t sign,
+static int32_t gap_by(struct boyse_pair *pair, const struct candidate *c, int8_t sign,
                       int32_t t_q30, bool *valid)
 {
     struct boyse_touch touch;
@@ -34,7 +34,7 @@ static int32_t gap_by(const struct boyse_pair *pair, const struct candidate *c, 
  * nothing can be solved yet, and the bodies continue until the features face each other, or until
  * half of the gap is left. Returns that time, or 0.
  */
-static int32_t later(const struct boyse_pair *pair, const struct candidate *c, int32_t root_q30)
+static int32_t later(struct boyse_pair *pair, const struct candidate *c, int32_t root_q30)
 {
     struct boyse_touch root;
     int32_t low = 0, high = root_q30, gap;
@@ -58,7 +58,7 @@ static int32_t later(const struct boyse_pair *pair, const struct candidate *c, i
     return valid ? low : high;
 }
 
-bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit)
+bool step_put_off(struct boyse_pair *pair, struct boyse_hit *hit)
 {
     int32_t t_q30 = hit->t_q30 < STEP_NO_TIME_Q30 ? later(pair, &hit->candidate, hit->root_q30) : 0;
     bool late = t_q30 > hit->t_q30;
@@ -155,7 +155,7 @@ static int64_t parts_of_turn(const struct body *a, const struct body *b, int64_t
  * Number of parts of a window. In each, the bodies pass by at most half of the smaller one's
  * radius, and turn so little that there are few candidates.
  */
-static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time_q30)
+static FIX_OWN_FRAME int32_t parts_of(const struct step *s, const struct pair *p, int32_t time_q30)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     int32_t radius_q22 =
@@ -235,7 +235,7 @@ static int64_t way_together_q22(const struct body *a, const struct body *b)
  * True if the bodies of a pair cannot meet on paths that begin with the frame: they go less far
  * than the clearance that the static check measured.
  */
-static bool stays_clear(const struct step *s, uint32_t number)
+static FIX_OWN_FRAME bool stays_clear(const struct step *s, uint32_t number)
 {
     const struct pair_work *m = &s->w->meetings[number];
     const struct body *a = &s->w->bodies[s->w->pairs[number].a];

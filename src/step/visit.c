@@ -27,8 +27,8 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
 }
 
 /* Part of both regions' time that begins at from_q30 of the frame and takes time_q30. */
-static struct interfere_span span_of(const struct step *s, const struct pair *p, int32_t from_q30,
-                                     int64_t time_q30)
+static FIX_OWN_FRAME struct interfere_span span_of(const struct step *s, const struct pair *p,
+                                                   int32_t from_q30, int64_t time_q30)
 {
     struct interfere_span span = {0, 0, time_q30, UINT32_MAX, false};
 
@@ -89,9 +89,9 @@ int32_t step_part_of(const struct step_visitor *v, const struct boyse_hit *hit)
     return part < v->parts ? part : v->parts - 1;
 }
 
-/* Gather the candidates of a time of the frame and keep them with the pair's others. */
-static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30,
-                     int64_t to_q30, uint32_t most)
+/* Gather the candidates of a time of the frame; keep them with the pair's others if `keep`. */
+static FIX_OWN_FRAME int gather_time(struct step *s, uint32_t number, struct step_visitor *v,
+                                     int32_t from_q30, int64_t to_q30, uint32_t most, bool keep)
 {
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
@@ -99,7 +99,13 @@ static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, in
 
     span.most = most;
     span.more = w->meetings[number].kept;
-    return interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+    return interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
+}
+
+static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30,
+                     int64_t to_q30, uint32_t most)
+{
+    return gather_time(s, number, v, from_q30, to_q30, most, true);
 }
 
 /*
@@ -213,16 +219,13 @@ static int gather_regions(struct step *s, uint32_t number, struct step_visitor *
 /* Visit a pair whose candidates are not kept. */
 static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
 {
-    struct carom_world *w = s->w;
-    const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
+    const struct carom_world *w = s->w;
     const struct pair *p = &w->pairs[number];
     int32_t from_q30 = 0;
-    struct interfere_span span;
 
-    w->meetings[number].clear = 0; /* the static check measured other candidates */
+    s->w->meetings[number].clear = 0; /* the static check measured other candidates */
     if (step_goes_far(s, p)) {
-        span = span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
-        return interfere_visit_pair(&w->interfere, &all, number, &span, false, &v->base);
+        return gather_time(s, number, v, v->from_q30, v->to_q30, UINT32_MAX, false);
     }
     /* gather from the later start of both paths; the time before has been searched */
     for (int k = 0; k < 2; k++) {

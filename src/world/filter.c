@@ -13,8 +13,9 @@ void world_filter(struct body *b, const struct carom_filter *filter)
 
 int carom_body_set_filter(struct carom_world *w, int body, const struct carom_filter *filter)
 {
-    struct body changed;
+    struct carom_filter old;
     struct body_state state;
+    struct body *b;
     int result;
 
     if (!w || !filter) {
@@ -23,20 +24,20 @@ int carom_body_set_filter(struct carom_world *w, int body, const struct carom_fi
     if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
-    changed = w->bodies[body];
-    world_filter(&changed, filter);
-    if (changed.def.category == w->bodies[body].def.category &&
-        changed.def.mask == w->bodies[body].def.mask &&
-        changed.def.group == w->bodies[body].def.group) {
+    b = &w->bodies[body];
+    old = (struct carom_filter){b->def.category, b->def.mask, b->def.group};
+    world_filter(b, filter);
+    if (b->def.category == old.category && b->def.mask == old.mask && b->def.group == old.group) {
         return CAROM_OK; /* nothing changed: nothing wakes */
     }
     state = world_now(w)->bodies[body];
-    result = world_settle(w, &changed, (uint32_t)body, &state, CAROM_OVERLAP_PASS);
+    result = world_settle(w, b, (uint32_t)body, &state, CAROM_OVERLAP_PASS);
+    world_filter(b, &old); /* wake also those that only the old filter lets it touch */
     if (result < 0) {
         return result;
     }
     world_wake_around(w, (uint32_t)body);
-    world_filter(&w->bodies[body], filter);
+    world_filter(b, filter);
     world_let_pass(w, (uint32_t)body);
     world_wake_around(w, (uint32_t)body);
     return CAROM_OK;

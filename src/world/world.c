@@ -227,13 +227,53 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
     return result;
 }
 
+/* The first place without a body; there is one. */
+static uint32_t free_place(const struct carom_world *w)
+{
+    uint32_t place = 0;
+
+    while (place < w->body_count && w->bodies[place].def.mesh) {
+        place++;
+    }
+    return place;
+}
+
+/* Leave a place without a body. Its generation stays: old ids name no later body. */
+static void clear_place(struct carom_world *w, uint32_t place)
+{
+    uint16_t generation = w->bodies[place].def.generation;
+
+    memset(&w->bodies[place], 0, sizeof w->bodies[place]);
+    w->bodies[place].def.generation = generation;
+}
+
+/*
+ * Make a body in a free place, and find where it starts: `state`. After an error the place must be
+ * cleared.
+ */
+static int make_at(struct carom_world *w, uint32_t place, struct body_state *state,
+                   const struct carom_body_def *def)
+{
+    struct body *b = &w->bodies[place];
+    uint16_t last = b->def.generation;
+    int result = make_body(b, state, def);
+
+    b->def.generation = last;
+    if (result < 0) {
+        return result;
+    }
+    if (def->kinematic && !world_may_have_extra(w)) {
+        return CAROM_ERR_EXTRAS_FULL;
+    }
+    return world_settle(w, b, place, state, def->overlap);
+}
+
 int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
 {
     struct pool *pool;
-    struct body made;
     struct body_state state;
-    uint32_t place = 0;
-    uint16_t last;
+    struct body *b;
+    uint32_t place;
     int result;
 
     if (!w || !def || !def->mesh) {
@@ -243,31 +283,22 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
         return CAROM_ERR_NO_ENTRIES;
     }
     pool = &w->pools[CAROM_POOL_bodies];
-    result = make_body(&made, &state, def);
-    if (result < 0) {
-        return result;
-    }
-    if (pool->used < pool->size) {
-        if (def->kinematic && !world_may_have_extra(w)) {
-            return CAROM_ERR_EXTRAS_FULL;
-        }
-        result = world_settle(w, &made, UINT32_MAX, &state, def->overlap);
-        if (result < 0) {
-            return result;
-        }
-    }
-    if (pool_take(pool) < 0) {
+    if (pool->used == pool->size) {
+        pool->refused++;
         return CAROM_ERR_BODIES_FULL;
     }
-    while (place < w->body_count && w->bodies[place].def.mesh) {
-        place++;
+    place = free_place(w);
+    b = &w->bodies[place];
+    result = make_at(w, place, &state, def);
+    if (result < 0) {
+        clear_place(w, place);
+        return result;
     }
+    (void)pool_take(pool);
     if (place == w->body_count) {
         w->body_count++;
     }
-    last = w->bodies[place].def.generation;
-    w->bodies[place] = made;
-    w->bodies[place].def.generation = last < UINT16_MAX ? (uint16_t)(last + 1) : 1;
+    b->def.generation = b->def.generation < UINT16_MAX ? (uint16_t)(b->def.generation + 1) : 1;
     world_put(w, place, &state);
     if (def->kinematic) {
         struct body_drive drive = world_drive_on(&def->velocity, &def->spin);
@@ -275,11 +306,11 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
         world_extra(w, place)->kinematic = true;
         world_drive(w, place, &drive);
     }
-    if (made.def.mesh->surface) {
-        mesh_surface_halt(made.def.mesh->surface);
+    if (b->def.mesh->surface) {
+        mesh_surface_halt(b->def.mesh->surface);
     }
-    w->sensors = (uint16_t)(w->sensors + made.def.sensor);
-    w->passing |= made.def.sensor || made.def.one_way != CAROM_BOTH_WAYS;
+    w->sensors = (uint16_t)(w->sensors + b->def.sensor);
+    w->passing |= b->def.sensor || b->def.one_way != CAROM_BOTH_WAYS;
     if (def->overlap == CAROM_OVERLAP_PASS) {
         world_let_pass(w, place);
     }
@@ -311,7 +342,6 @@ int carom_body_remove(struct carom_world *w, int body)
 {
     struct world_state *s;
     uint32_t kept = 0;
-    uint16_t generation;
 
     if (!w) {
         return CAROM_ERR_NULL;
@@ -328,9 +358,7 @@ int carom_body_remove(struct carom_world *w, int body)
     world_drop_through(w, s, (uint32_t)body);
     w->sensors = (uint16_t)(w->sensors - w->bodies[body].def.sensor);
     world_drop_extra(w, (uint32_t)body);
-    generation = w->bodies[body].def.generation;
-    memset(&w->bodies[body], 0, sizeof w->bodies[body]);
-    w->bodies[body].def.generation = generation; /* the old ids name no body from here on */
+    clear_place(w, (uint32_t)body);
     for (int i = 0; i < 2; i++) {
         memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
     }

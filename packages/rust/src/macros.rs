@@ -59,7 +59,7 @@ pub const fn world_bytes(caps: &carom_caps) -> usize {
         + j * bytes_by_pointer(2160, 2180)
         + x * bytes_by_pointer(208, 216)
         + h * 40
-        + more(solve, found + bytes_by_pointer(1712, 1744));
+        + more(solve, found + bytes_by_pointer(1880, 1952));
 
     (sum + 7) / 8 * 8
 }
