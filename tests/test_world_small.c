@@ -15,7 +15,7 @@
 #define AMPLE  3, 3, 64, 64, 0, 256
 #define FRAMES 300
 
-_Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(CAPS) <= 6304, "a small world");
+_Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(CAPS) <= 6472, "a small world");
 
 /* 1/4096 of a unit: a box of 1 x 0.6 x 0.3, a tetrahedron, a plane. */
 enum { X = 2048, Y = 1229, Z = 614, T = 1500, P = 20000 };
