@@ -105,26 +105,17 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
 }
 
 /*
- * A kept impulse in solver units, clamped to 2^40: the unit may be far smaller than a frame ago,
- * and sums need room.
+ * A kept impulse in solver units. The unit may be far smaller than a frame ago, and sums need room:
+ * an impulse above 2^40 units is scaled down to it whole, since parts that are cut one by one
+ * would leave the friction cone.
  */
 static void to_units(int64_t v[4], struct fix_scaled inverse)
 {
-    const int64_t most = (int64_t)1 << 40;
-    const int bits = 10 + inverse.e;
-    bool fits = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]) |
-                                    carom_abs(v[3]))) <= bits;
+    const int over = fix_bits(rest_used(v)) - (10 + inverse.e);
 
-    if (fits) {
-        fix_mul_scaled3(v, v, inverse);
-        v[3] = fix_mul_scaled(v[3], inverse);
-        return;
-    }
-    for (int k = 0; k < 4; k++) {
-        v[k] = fix_bits((uint64_t)carom_abs(v[k])) <= bits ? fix_mul_scaled(v[k], inverse)
-               : v[k] < 0                                  ? -most
-                                                           : most;
-    }
+    inverse.e += over > 0 ? over : 0;
+    fix_mul_scaled3(v, v, inverse);
+    v[3] = fix_mul_scaled(v[3], inverse);
 }
 
 static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, uint32_t first,

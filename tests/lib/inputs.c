@@ -11,5 +11,8 @@ const struct input inputs[] = {
     {"calls", "carom_cast_mesh: a way of 2^62 units",
      "00000000fcfcb20e0e0e41603d000000000000000001006040000b1a7690905b98aa3d30a60e60f060f02d00a00f"
      "60f00dac60f0a00f4a00a00fa00f00800e"},
+    {"snapshot", "a kept impulse above 2^40 units left the friction cone",
+     "baad08d1ab21fbfbfbfbfbfbfbfbfbfbfbfb72eb6e29010000000000000100000000000001000000010000af00c"
+     "a"},
     {NULL, NULL, NULL}, /* the end */
 };
