@@ -155,7 +155,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics proof analysis faults worst soak meshes mutants coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy costs special oracle fixtures physics proof analysis faults worst soak meshes mutants coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -214,21 +214,32 @@ budget: ## measure the worst frame of every scene of a board against its budget,
 	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
 	    tools/budget.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready && $(all_built)
 
-accuracy: ## compare the integer kernels with independent oracles, to out/accuracy.csv
+accuracy: ## compare the integer kernels with independent oracles, to out/accuracy.csv and docs/measured.md
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host $(ACCURACY)
 	@mkdir -p out
-	@echo 'kernel,cases,p50,p999,p9999,max,failures' | tee out/accuracy.csv
+	@echo 'kernel,cases,p50,p999,p9999,max,failures,bars' | tee out/accuracy.csv
 	@status=0; for program in $(ACCURACY); do \
 	    $$program >out/accuracy.part || status=1; tee -a out/accuracy.csv <out/accuracy.part; \
-	done; rm -f out/accuracy.part; exit $$status
+	done; rm -f out/accuracy.part; tools/measured.py kernels; exit $$status
 
-oracle: ## compare first hits of 10,000 motions with a test of every pair of features, to out/oracle.csv
+COSTS := $(patsubst %,build/mps2-an385/suite_%.elf,boyse_cost num_gauss_cost query_cost query_rays_cost)
+costs: ## count the instructions of kernels and queries on a Cortex-M3, to docs/measured.md
+	@tools/need $(NEED_MESHES) $(NEED_BOARD)
+	@$(SUBMAKE) BOARD=mps2-an385 $(COSTS)
+	@tools/measured.py costs $(COSTS)
+
+special: ## let features of 100,000 pairs of bodies meet in special positions, to docs/measured.md
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_special.elf
+	@tools/measured.py special build/host/host_special.elf
+
+oracle: ## compare first hits of 10,000 motions with a test of every pair of features, to out/oracle.csv and docs/measured.md
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_first_hit.elf
 	@mkdir -p out
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
-	    cat out/oracle.csv; exit $$status
+	    cat out/oracle.csv; tools/measured.py hits; exit $$status
 
 fixtures: ## run published and special scenes: do they hold, stand, turn? To out/fixtures.csv and docs/fixtures.md; SCENES=
 	@tools/need $(NEED_MESHES) $(NEED_HOST)

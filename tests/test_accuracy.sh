@@ -13,7 +13,7 @@ for source in tests/accuracy_*.c; do
     program=build/host/$(basename "$source" .c).elf
     "$program" share=50 >"$work/rows" 2>"$work/missed" </dev/null
     status=$?
-    while IFS=, read -r kernel cases _ _ _ max failures; do
+    while IFS=, read -r kernel cases _ _ _ max failures _; do
         tests=$((tests + 1))
         if grep -q "^$kernel:" "$work/missed"; then
             echo "not ok $tests - accuracy/$kernel"

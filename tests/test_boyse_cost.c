@@ -142,8 +142,8 @@ static void test_misses(void)
         }
     }
     CHECK_MORE(fall.hits, 0); /* the head does come down */
-    tally_end(&fall.misses[0], "vertex and face that miss", bar_miss[0]);
-    tally_end(&fall.misses[1], "edges that miss", bar_miss[1]);
+    tally_end(&fall.misses[0], "vertex and face that miss each other", bar_miss[0]);
+    tally_end(&fall.misses[1], "edges that miss each other", bar_miss[1]);
 }
 
 /* ------------------------------------------------------------------------ hits */

@@ -52,7 +52,7 @@ static void worst(int n, uint32_t bar)
         most = spent > most ? spent : most;
     }
     if (most > 0) {
-        port_print("# %d unknowns: %lu instructions on average, %lu at most\n", n,
+        port_print("# elimination of %d unknowns: %lu instructions on average, %lu at most\n", n,
                    (unsigned long)(sum / CASES), (unsigned long)most);
     }
     CHECK_BAR(most, bar);

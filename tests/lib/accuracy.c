@@ -109,6 +109,27 @@ static void hold(const struct accuracy *a, const char *name, double value, doubl
     }
 }
 
+/* The bars of a kernel, for the last column of its row. */
+static void print_bars(const struct accuracy_bar *bar)
+{
+    const struct {
+        const char *name;
+        double bar;
+        bool held;
+    } bars[] = {{"p999", bar->p999, bar->p999 > 0},
+                {"p9999", bar->p9999, bar->p9999 > 0},
+                {"max", bar->max, bar->max > 0 || bar->max_is_zero}};
+    const char *between = "";
+
+    for (size_t i = 0; i < sizeof bars / sizeof *bars; i++) {
+        if (bars[i].held) {
+            printf("%s%s %.3g", between, bars[i].name, bars[i].bar);
+            between = "; ";
+        }
+    }
+    putchar('\n');
+}
+
 void accuracy_end(struct accuracy *a, const struct accuracy_bar *bar)
 {
     double p999, p9999, max;
@@ -117,8 +138,9 @@ void accuracy_end(struct accuracy *a, const struct accuracy_bar *bar)
     p999 = quantile(a, 0.999);
     p9999 = quantile(a, 0.9999);
     max = a->count > 0 ? a->errors[a->count - 1] : 0;
-    printf("%s,%zu,%.3g,%.3g,%.3g,%.3g,%zu\n", a->kernel, a->count + a->failures, quantile(a, 0.5),
+    printf("%s,%zu,%.3g,%.3g,%.3g,%.3g,%zu,", a->kernel, a->count + a->failures, quantile(a, 0.5),
            p999, p9999, max, a->failures);
+    print_bars(bar);
     fflush(stdout);
     hold(a, "p999", p999, bar->p999, bar->p999 > 0);
     hold(a, "p9999", p9999, bar->p9999, bar->p9999 > 0);
