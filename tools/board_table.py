@@ -8,6 +8,7 @@ part.
 """
 import os
 
+import claims
 import marked
 import results
 import run_board
@@ -80,6 +81,7 @@ def main():
     lines = ["| " + " | ".join(row) + " |" for row in [COLUMNS, *rows]]
     lines.insert(1, "|---" * len(COLUMNS) + "|")
     marked.write(README, MARK, lines)
+    claims.write()
 
 
 if __name__ == "__main__":

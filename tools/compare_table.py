@@ -6,6 +6,7 @@
 import csv
 import os
 
+import claims
 import marked
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -96,3 +97,4 @@ def write(figures):
     for path, text in expected(read()).items():
         with open(path, "w") as file:
             file.write(text)
+    claims.write()

@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 
+import claims
 import evidence
 import marked
 
@@ -29,6 +30,7 @@ def main():
         file.write(said)
     marked.write(DOCS, "physics", ["| %s |" % " | ".join(COLUMNS), "|" + "---|" * len(COLUMNS)] +
                  ["| %s |" % " | ".join(cell(name, row) for name in COLUMNS) for row in rows])
+    claims.write()
     held = sum(row["holds"] == "yes" for row in rows)
     evidence.record("physics", {"rows": (len(rows), "fact"), "rows within their bar": (held, "more")})
     print("%d of %d rows hold" % (held, len(rows)))
