@@ -21,9 +21,10 @@ static const struct {
     const char *name;
     uint32_t bar;
     int64_t from[3], spread[3], to[3]; /* 2^-8 units */
-} kinds[KINDS] = {{"a ray down on the field", 15000, {0, 0, 2048}, {640, 640, 256}, {512, 512, 0}},
-                  {"a ray across it", 15000, {-2048, 0, 512}, {256, 1800, 400}, {4096, 1800, 300}},
-                  {"a ray of a unit, just above it", 15000, {0, 0, 256}, {1536, 1536, 128}, {192, 192, 200}}};
+} kinds[KINDS] = {
+    {"a ray down on the field", 15000, {0, 0, 2048}, {640, 640, 256}, {512, 512, 0}},
+    {"a ray across it", 15000, {-2048, 0, 512}, {256, 1800, 400}, {4096, 1800, 300}},
+    {"a ray of a unit, just above it", 15000, {0, 0, 256}, {1536, 1536, 128}, {192, 192, 200}}};
 
 static void test_cost(void)
 {
@@ -80,7 +81,8 @@ static void test_swept(void)
     static const struct {
         const char *name;
         int64_t height, aside, down; /* 2^-8 units */
-    } ways[2] = {{"a box swept 4 units down on the field", 768, 512, -1024}, {"the same, just above it", 288, 1024, -32}};
+    } ways[2] = {{"a box swept 4 units down on the field", 768, 512, -1024},
+                 {"the same, just above it", 288, 1024, -32}};
     const struct carom_config config = scene_config();
     struct test_random r = {4};
     struct carom_world *world;
