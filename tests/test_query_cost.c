@@ -93,9 +93,10 @@ static void test_cost(void)
     }
     for (int k = 0; k < PHASES; k++) {
         if (most[k] > 0) {
-            port_print("# head and field, %s: %lu instructions on average, %lu at most; %lu pairs\n",
-                       phases[k].name, (unsigned long)(sum[k] / POSES), (unsigned long)most[k],
-                       (unsigned long)(found[k] / POSES));
+            port_print(
+                "# head and field, %s: %lu instructions on average, %lu at most; %lu pairs\n",
+                phases[k].name, (unsigned long)(sum[k] / POSES), (unsigned long)most[k],
+                (unsigned long)(found[k] / POSES));
         }
         CHECK_BAR(sum[k] / POSES, phases[k].bar);
     }
