@@ -121,12 +121,13 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
         }
         place = find_place(list, key, &same);
     }
+    CAROM_ASSERT(pair->a->def.moving);
     c = insert(list, place);
     c->key = *key;
     c->gap_q22 = gap_q22;
     c->skin_q22 = pair->skin_q22;
     c->normal = *normal;
-    c->side[0].body = pair->a->def.moving ? pair->a : NULL;
+    c->side[0].body = pair->a;
     c->side[1].body = pair->b->def.moving ? pair->b : NULL;
     set_arms(c, arm);
     c->drift = NULL;

@@ -19,7 +19,7 @@
 
 /* One of a contact's two bodies. Index 0 is a, 1 is b. */
 struct contact_side {
-    struct body *body; /* NULL: stationary; then the rest is meaningless */
+    struct body *body; /* a always moves; NULL: b does not, and the rest is meaningless */
     /* from the centre of mass to the contact, in the body's unit of length */
     int32_t arm_q30[3];
 };

@@ -157,9 +157,7 @@ void rest_push(struct contact *c, const int32_t impulse[3])
 {
     const int32_t opposite[3] = {-impulse[0], -impulse[1], -impulse[2]};
 
-    if (c->side[0].body) {
-        rest_push_side(c->side[0].body, &c->work->lever[0], impulse, c->work->fine_bits);
-    }
+    rest_push_side(c->side[0].body, &c->work->lever[0], impulse, c->work->fine_bits);
     if (c->side[1].body) {
         rest_push_side(c->side[1].body, &c->work->lever[1], opposite, c->work->fine_bits);
     }

@@ -102,9 +102,8 @@ static void prepare_shares(struct contact *c)
     struct fix_scaled unit;
 
     c->work->b_lighter =
-        !a ||
-        (b && (a->def.mass.m != b->def.mass.m || a->def.mass.e != b->def.mass.e) &&
-         fix_mul_scaled(CAROM_ONE_Q30, b->def.mass) < fix_mul_scaled(CAROM_ONE_Q30, a->def.mass));
+        b && (a->def.mass.m != b->def.mass.m || a->def.mass.e != b->def.mass.e) &&
+        fix_mul_scaled(CAROM_ONE_Q30, b->def.mass) < fix_mul_scaled(CAROM_ONE_Q30, a->def.mass);
     unit = contact_lighter(c)->def.mass;
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];

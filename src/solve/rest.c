@@ -300,14 +300,14 @@ int rest_project(struct rest *r)
 /* True if a contact has a moving body that has not taken gravity. */
 static bool may_enter(const struct contact *c)
 {
-    return (c->side[0].body && c->side[0].body->clock.contact == BODY_FLIES) ||
+    return c->side[0].body->clock.contact == BODY_FLIES ||
            (c->side[1].body && c->side[1].body->clock.contact == BODY_FLIES);
 }
 
 /* True if a body of the contact newly took gravity. */
 static bool enters(const struct contact *c)
 {
-    return (c->side[0].body && c->side[0].body->clock.contact == BODY_ENTERS) ||
+    return c->side[0].body->clock.contact == BODY_ENTERS ||
            (c->side[1].body && c->side[1].body->clock.contact == BODY_ENTERS);
 }
 

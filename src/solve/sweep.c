@@ -16,13 +16,9 @@ static void present_velocity(const struct contact *c, int32_t v[3])
 
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        uint64_t turn = (uint64_t)1 << 31;
-        int32_t way = 1 << (REST_FINER_BITS - 1);
+        uint64_t turn = ((uint64_t)1 << 31) + turned(c->work->lever[0].turn[k], body_solved(a)->du);
+        int32_t way = (1 << (REST_FINER_BITS - 1)) + body_solved(a)->dv[k];
 
-        if (a) {
-            turn += turned(c->work->lever[0].turn[k], body_solved(a)->du);
-            way += body_solved(a)->dv[k];
-        }
         if (b) {
             turn -= turned(c->work->lever[1].turn[k], body_solved(b)->du);
             way -= body_solved(b)->dv[k];

@@ -11,7 +11,7 @@
 static bool may_rest(const struct contact *c, int32_t e_q30)
 {
     return !rest_bounces_for_ever(e_q30) || c->lasting ||
-           (c->side[0].body && c->side[0].body->clock.contact != BODY_FLIES) ||
+           c->side[0].body->clock.contact != BODY_FLIES ||
            (c->side[1].body && c->side[1].body->clock.contact != BODY_FLIES);
 }
 
