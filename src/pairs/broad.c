@@ -12,11 +12,12 @@ static bool before(const void *record, const void *key)
     return p->a < q->a || (p->a == q->a && p->b < q->b);
 }
 
-uint32_t broad_place_of(const struct pair *list, uint32_t count, uint32_t a, uint32_t b)
+bool broad_find(const struct pair *list, uint32_t count, uint32_t a, uint32_t b, uint32_t *place)
 {
     const struct pair key = {(uint16_t)a, (uint16_t)b};
 
-    return sort_lower_bound(list, count, sizeof *list, &key, before);
+    *place = sort_lower_bound(list, count, sizeof *list, &key, before);
+    return *place < count && list[*place].a == a && list[*place].b == b;
 }
 
 /*

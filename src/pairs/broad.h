@@ -20,8 +20,8 @@ struct pair {
     uint16_t a, b;
 };
 
-/* Where a pair is in a list, which is in order, or belongs. */
-uint32_t broad_place_of(const struct pair *list, uint32_t count, uint32_t a, uint32_t b);
+/* True if a list of pairs, which is in order, has a pair; its place, or the one where it belongs. */
+bool broad_find(const struct pair *list, uint32_t count, uint32_t a, uint32_t b, uint32_t *place);
 
 /* A step's knowledge of a pair while its bodies are near each other. */
 struct pair_work {

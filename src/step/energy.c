@@ -332,23 +332,6 @@ static bool limit_joined(struct step *s, uint32_t first)
     return owed != NULL;
 }
 
-void step_calm_island(struct step *s, uint32_t body, bool hard)
-{
-    uint32_t first = s->w->bodies[body].island.lowest;
-    bool grounded = false;
-
-    for (uint32_t i = 0; i < s->w->rest.list.pool->used; i++) {
-        const struct contact *c = &s->w->rest.list.contacts[i];
-        const struct pair *p = &s->w->pairs[c->key.pair];
-
-        grounded |= s->w->bodies[p->a].island.lowest == first && !s->w->bodies[p->b].def.moving;
-    }
-    if (!grounded || !step_carry_island(s, first, hard)) {
-        (void)rest_unite(&s->w->rest, first, grounded);
-    }
-    s->w->stats.calmed++;
-}
-
 void step_limit_energy(struct step *s)
 {
     struct carom_world *w = s->w;

@@ -45,28 +45,19 @@ bool step_retire(struct step *s, uint32_t i)
     return true;
 }
 
-static uint32_t touching_place(const struct world_state *s, const struct pair *p)
-{
-    return broad_place_of(s->touching, s->touching_count, p->a, p->b);
-}
-
-static bool touching_at(const struct world_state *s, uint32_t place, const struct pair *p)
-{
-    return place < s->touching_count && s->touching[place].a == p->a &&
-           s->touching[place].b == p->b;
-}
-
 bool step_is_touching(const struct world_state *s, const struct pair *p)
 {
-    return touching_at(s, touching_place(s, p), p);
+    uint32_t place;
+
+    return broad_find(s->touching, s->touching_count, p->a, p->b, &place);
 }
 
 int step_note_touching(struct step *s, const struct pair *p)
 {
     struct world_state *next = s->next;
-    uint32_t place = touching_place(next, p);
+    uint32_t place;
 
-    if (touching_at(next, place, p)) {
+    if (broad_find(next->touching, next->touching_count, p->a, p->b, &place)) {
         return CAROM_OK;
     }
     if (next->touching_count == s->w->config.caps.pairs) {

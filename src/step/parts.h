@@ -272,12 +272,6 @@ int step_note_touching(struct step *s, const struct pair *p);
  */
 void step_limit_energy(struct step *s);
 
-/*
- * The last resort for an island that a solve did not part. It stops if it touches a stationary
- * body, else it moves as one rigid body. `hard`: see step_carry_island.
- */
-void step_calm_island(struct step *s, uint32_t body, bool hard);
-
 /* ---------------------------------------------------------------- kinematic bodies */
 
 /*

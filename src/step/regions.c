@@ -7,17 +7,6 @@
 
 /* ------------------------------------------------------------------ numbers */
 
-static uint32_t place_of(const struct carom_world *w, uint32_t a, uint32_t b)
-{
-    return broad_place_of(w->pairs, w->pools[CAROM_POOL_pairs].used, a, b);
-}
-
-static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)
-{
-    return place < w->pools[CAROM_POOL_pairs].used && w->pairs[place].a == a &&
-           w->pairs[place].b == b;
-}
-
 /*
  * Change the pair indices of contacts from a place on. Candidates get their pair's index when they
  * are visited.
@@ -35,9 +24,10 @@ FIX_APART static void renumber(struct carom_world *w, uint32_t place, int by)
 
 uint32_t step_find_pair(const struct carom_world *w, const struct pair *p)
 {
-    uint32_t place = place_of(w, p->a, p->b);
+    uint32_t place;
 
-    return is_at(w, place, p->a, p->b) ? place : UINT32_MAX;
+    return broad_find(w->pairs, w->pools[CAROM_POOL_pairs].used, p->a, p->b, &place) ? place
+                                                                                     : UINT32_MAX;
 }
 
 /* Record of a new pair. */
@@ -115,8 +105,8 @@ static int set_pairs(struct step *s, uint32_t i)
             bool first = w->bodies[i].def.moving && (!w->bodies[k].def.moving || i > k);
             uint32_t a = first ? i : k, b = first ? k : i, place;
 
-            place = place_of(w, a, b);
-            if (!is_at(w, place, a, b) && are_near(s, a, b)) {
+            if (!broad_find(w->pairs, w->pools[CAROM_POOL_pairs].used, a, b, &place) &&
+                are_near(s, a, b)) {
                 result = insert_pair(w, place, a, b);
             }
         }

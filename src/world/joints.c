@@ -67,8 +67,9 @@ static void ignore(struct carom_world *w, const struct joint *j)
 {
     bool first = !w->bodies[j->b].def.moving || j->a > j->b;
     const struct pair p = {first ? j->a : j->b, first ? j->b : j->a};
-    uint32_t place = broad_place_of(w->ignored, w->ignored_count, p.a, p.b);
+    uint32_t place;
 
+    (void)broad_find(w->ignored, w->ignored_count, p.a, p.b, &place);
     memmove(&w->ignored[place + 1], &w->ignored[place],
             (w->ignored_count - place) * sizeof *w->ignored);
     w->ignored[place] = p;

@@ -12,18 +12,17 @@ struct pair world_name_pair(const struct carom_world *w, uint32_t i, uint32_t k)
 bool world_goes_through(const struct carom_world *w, const struct world_state *s,
                         const struct pair *p)
 {
-    const struct pair *list = world_through(w, s);
-    uint32_t place = broad_place_of(list, s->through_count, p->a, p->b);
+    uint32_t place;
 
-    return place < s->through_count && list[place].a == p->a && list[place].b == p->b;
+    return broad_find(world_through(w, s), s->through_count, p->a, p->b, &place);
 }
 
 int world_note_through(const struct carom_world *w, struct world_state *s, const struct pair *p)
 {
     struct pair *list = world_through(w, s);
-    uint32_t place = broad_place_of(list, s->through_count, p->a, p->b);
+    uint32_t place;
 
-    if (world_goes_through(w, s, p)) {
+    if (broad_find(list, s->through_count, p->a, p->b, &place)) {
         return CAROM_OK;
     }
     if (s->touching_count + s->through_count == w->config.caps.pairs) {

@@ -264,11 +264,7 @@ static inline bool world_ignores(const struct carom_world *w, uint32_t a, uint32
 {
     uint32_t place;
 
-    if (w->ignored_count == 0) {
-        return false;
-    }
-    place = broad_place_of(w->ignored, w->ignored_count, a, b);
-    return place < w->ignored_count && w->ignored[place].a == a && w->ignored[place].b == b;
+    return w->ignored_count > 0 && broad_find(w->ignored, w->ignored_count, a, b, &place);
 }
 
 /* Wake every body. */
