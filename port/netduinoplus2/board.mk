@@ -3,17 +3,18 @@
 CPU := Cortex-M4
 DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 168
-SCENES := head:60 head450:60 box:60
+SCENES := head:60 head450:60 box:60 door:43 crusher:3 newton:11 bowl:9
 FAMILY := arm
 ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
-# Unrolled loops: a tenth faster, and the flash has room.
-OPT := -O2 -funroll-loops
+# Room for more scenes.
+OPT := -Os
 PORT := port/netduinoplus2/netduino.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M netduinoplus2
 # The counter runs at 1 GHz: one tick is one instruction.
 ICOUNT_SHIFT := 0
-ROM_SCENES := head head450 box
+ROM_SCENES := head head450 box door crusher newton bowl
 CAPS := 2,1,16,128,1,128
+GAME_CAPS := 20,32,64,192,0,512
 # With pictures only, which are drawn in parts.
 DRAW_BYTES := 20480
 PICTURES := 0

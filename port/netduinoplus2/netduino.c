@@ -5,7 +5,7 @@
  */
 #include "picture.h"
 
-enum { WIDTH = 240, HEIGHT = 160 };
+enum { WIDTH = 160, HEIGHT = 120 };
 
 /* Timer 2 has 32 bits; QEMU runs it at 1 GHz. */
 struct timer {
