@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Netduino Plus 2 (STM32F405): it has no display, so there is a framebuffer only when pictures are written (picture.h), of a size
- * that leaves half of the RAM to the engine.
+ * that leaves more than half of the RAM to the engine.
  */
 #include "picture.h"
 
