@@ -1,6 +1,7 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Change the engine in one place at a time and see whether the tests notice: tools/mutants.py [--count N] [--most N] [--files PART]
+"""Change the engine in one place at a time and see whether the tests notice:
+tools/mutants.py [--count N] [--most N] [--files PART] [--seconds S] [--resume]
 
 A mutant is one change in a source of src/: an operator, a constant by one, a dropped statement or a negated condition. Files have
 mutants by their length, each at least one; the same numbers are the same mutants as long as the file does not change. A mutant
@@ -10,9 +11,11 @@ is
     refused   it does not compile
     judged    no test notices, and tests/mutants_alive.csv gives the reason: it changes nothing, or costs alone
     alive     no test notices, and it is not listed there
-Each worker has a clone of the last commit in build/mutants, compiled at -O1. The suites of the mutant's folder run
-first, then the plays, all suites, and the host's programs. Results go to out/mutants.csv. Mutants that are alive are
-printed, and count as missed. --record writes the share of those caught to docs/evidence.md.
+    open      no test noticed in --seconds, and some were not asked
+Each worker has a clone of the last commit in build/mutants. It asks the tests that run the changed line (tools/mutant_tests.py), first
+those that caught most mutants of the folder for their time. Rows go to out/mutants.csv as they come. --resume keeps its caught,
+equal and refused ones if src/ is the same, and asks for the rest again. Mutants that are alive or open are printed, and
+count as missed. --record writes the share of those caught to docs/evidence.md.
 """
 import argparse
 import collections
@@ -23,21 +26,20 @@ import os
 import queue
 import random
 import re
+import resource
 import subprocess
 import sys
+import threading
 import time
 
 import evidence
+import mutant_tests
 import results
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT, JUDGED = os.path.join(ROOT, "out", "mutants.csv"), os.path.join(ROOT, "tests", "mutants_alive.csv")
-COLUMNS = ["file", "line", "change", "column", "became", "result", "by", "seconds"]
-SLOWER = 4  # a test may take so many times as long as without a change, and a few seconds
-BUILD = ["make", "-s", "BOARD=host", "OPT=-O1", "WARNINGS=-w"]
-# host programs that judge the engine, the quick ones first; the rest (soaks, fuzzers, oracles of many worlds) takes minutes
-PROGRAMS = ["host_head", "host_motion", "host_pools", "host_wake", "host_replay", "host_encounter", "host_roll", "host_bounce",
-            "host_rest", "host_scenes", "host_sheet", "host_recall", "host_rules", "host_physics"]
+COLUMNS = ["file", "line", "change", "column", "became", "result", "by", "seconds", "src"]
+SLOWER = 4  # a test may take so much more processor time as without a change, and a few seconds
 # suites of a folder whose names do not begin with it
 SUITES = {"step": "world", "contact": "solve", "interfere": "boyse"}
 
@@ -104,40 +106,42 @@ def changed(text, mutant):
     return "\n".join(lines)
 
 
+class Caught:
+    """Who caught how many mutants of a folder."""
+
+    def __init__(self):
+        self.counts, self.lock = collections.Counter(), threading.Lock()
+
+    def add(self, folder, name):
+        with self.lock:
+            self.counts[folder, name] += 1
+
+    def order(self, folder, tests):
+        """First those that caught most for their time; before any did, the folder's own suites, and the quick ones."""
+        own = "tests.elf " + SUITES.get(folder, folder)
+        return sorted(tests, key=lambda test: -(self.counts[folder, test.name] + (.1 if test.name.startswith(own) else .01)) /
+                      (test.seconds + .02))
+
+
 class Worker:
     """A clone in which mutants are made one after another."""
 
-    def __init__(self, number):
-        self.folder = os.path.join(ROOT, "build", "mutants", str(number))
-        if not os.path.isdir(self.folder):
-            subprocess.run(["git", "clone", "--quiet", "--no-local", ROOT, self.folder], check=True)
-        subprocess.run(["git", "fetch", "--quiet", "origin", "HEAD"], cwd=self.folder, check=True)
-        subprocess.run(["git", "reset", "--quiet", "--hard", "FETCH_HEAD"], cwd=self.folder, check=True)
-        self.programs = [name for name in PROGRAMS if os.path.exists(os.path.join(self.folder, "tests", name + ".c"))]
-        self.make("tests", "matrix", *self.programs, check=True)
-        self.limits = {}
-        for command in [["tests.elf"], ["matrix.elf"], *([name + ".elf"] for name in self.programs)]:
-            start = time.monotonic()
-            if not self.passes(command, 1800):
-                sys.exit("%s fails without a change" % command)
-            self.limits[command[0]] = 10 + SLOWER * (time.monotonic() - start)
-
-    def make(self, *programs, check=False):
-        return subprocess.run([*BUILD, *("build/host/%s.elf" % name for name in programs)], cwd=self.folder, check=check,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+    def __init__(self, number, caught):
+        self.folder, self.caught = mutant_tests.clone(number), caught
+        self.tests = mutant_tests.known(self.folder)
+        mutant_tests.make(self.folder, {test.program for test in self.tests}, check=True)
 
     def object_of(self, path):
-        with open(os.path.join(self.folder, "build/host", path[:-2] + ".o"), "rb") as file:
-            return file.read()
+        """Its code and data, without the columns that debuggers know."""
+        return subprocess.run(["objcopy", "--strip-debug", "build/host/%s.o" % path[:-2], "/dev/stdout"], cwd=self.folder,
+                              stdout=subprocess.PIPE, check=True).stdout
 
-    def passes(self, command, limit):
-        """True if a program succeeds and no line of it says "not ok"."""
-        if command[0] == "matrix.elf":
-            command = ["tools/plays.py", "build/host/matrix.elf"]
-        else:
-            command = ["build/host/" + command[0], *command[1:]]
-        process = subprocess.Popen(["timeout", "-k", "1", "%d" % limit, *command], cwd=self.folder, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, errors="replace")
+    def passes(self, test):
+        """True if a test succeeds without a line "not ok" in its time. The time is the processor's, so a busy machine fails none."""
+        limit = int(5 + SLOWER * test.seconds)
+        process = subprocess.Popen(test.command(), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.DEVNULL, text=True, errors="replace",
+                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1)))
         held = True
         for line in process.stdout:
             if line.startswith("not ok"):
@@ -147,39 +151,41 @@ class Worker:
         process.stdout.close()
         return process.wait() == 0 and held
 
-    def noticed(self, mutant):
-        """The first test that notices a mutant that is built, or None."""
+    def noticed(self, mutant, seconds):
+        """Whether a mutant that is built is caught, alive or open, and the first test that notices it."""
         folder = mutant.file.split("/")[1]
-        for command in [["tests.elf", SUITES.get(folder, folder)], ["matrix.elf"], ["tests.elf"]]:
-            if not self.passes(command, self.limits[command[0]]):
-                return " ".join(command)
-        for name in self.programs:
-            self.make(name)
-            if not self.passes([name + ".elf"], self.limits[name + ".elf"]):
-                return name
-        return None
+        asked = [test for test in self.tests if mutant.line in test.lines.get(mutant.file, ())]
+        if not any(mutant.line in test.executable.get(mutant.file, ()) for test in self.tests):
+            asked = self.tests  # a line that the compiler does not count
+        start = time.process_time() + sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+        for test in self.caught.order(folder, asked):
+            mutant_tests.make(self.folder, [test.program], check=True)
+            if not self.passes(test):
+                self.caught.add(folder, test.name)
+                return "caught", test.name
+            spent = time.process_time() + sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]) - start
+            if seconds and spent > seconds and test is not asked[-1]:
+                return "open", ""
+        return "alive", ""
 
-    def judge(self, mutant):
-        """A row of the results."""
+    def judge(self, mutant, seconds):
+        """The result of a mutant, and who noticed it."""
         path = os.path.join(self.folder, mutant.file)
         with open(path) as file:
             text = file.read()
-        before, start, by = self.object_of(mutant.file), time.monotonic(), ""
+        before = self.object_of(mutant.file)
         try:
             with open(path, "w") as file:
                 file.write(changed(text, mutant))
-            if not self.make("tests", "matrix"):
-                result = "refused"
-            elif self.object_of(mutant.file) == before:
-                result = "equal"
-            else:
-                by = self.noticed(mutant) or ""
-                result = "caught" if by else "alive"
+            if not mutant_tests.make(self.folder, ["matrix.elf"]):
+                return "refused", ""
+            if self.object_of(mutant.file) == before:
+                return "equal", ""
+            return self.noticed(mutant, seconds)
         finally:
             with open(path, "w") as file:
                 file.write(text)
-        return [mutant.file, mutant.line, mutant.change, mutant.column, mutant.became[1], result, by,
-                "%.0f" % (time.monotonic() - start)]
+            mutant_tests.make(self.folder, ["matrix.elf"], check=True)
 
 
 def judged():
@@ -187,32 +193,62 @@ def judged():
     return {(row["file"], row["code"], row["change"], row["became"]): row["reason"] for row in results.read(JUDGED)}
 
 
-def code_of(row):
-    with open(os.path.join(ROOT, row[0])) as file:
-        return file.read().split("\n")[row[1] - 1].strip()
+def code_of(mutant):
+    with open(os.path.join(ROOT, mutant.file)) as file:
+        return file.read().split("\n")[mutant.line - 1].strip()
 
 
-def run(mutants, jobs):
-    """Judge all mutants; prints those alive."""
-    free, known, rows = queue.Queue(), judged(), []
+def key_of(mutant):
+    """A mutant as the results name it."""
+    return (mutant.file, *map(str, mutant[1:4]), mutant.became[1])
+
+
+def run(mutants, jobs, seconds, known):
+    """Judge all mutants that are not known; the rows. Prints those that no test noticed."""
+    caught, free, reasons, rows = Caught(), queue.Queue(), judged(), list(known.values())
+    for row in rows:
+        if row[5] == "caught":
+            caught.add(row[0].split("/")[1], row[6])
     for number in range(jobs):
-        free.put(Worker(number))
+        free.put(Worker(number, caught))
+    src = source()
 
     def one(mutant):
-        worker = free.get()
+        worker, start = free.get(), time.monotonic()
         try:
-            row = worker.judge(mutant)
+            result, by = worker.judge(mutant, seconds)
         finally:
             free.put(worker)
-        if row[5] == "alive" and (row[0], code_of(row), row[2], row[4]) in known:
-            row[5] = "judged"
-        if row[5] == "alive":
-            print("alive: %s:%d: %s at %d becomes %s: %s" % (*row[:5], code_of(row)), flush=True)
-        rows.append(row)
+        if result in ("alive", "open"):
+            if (mutant.file, code_of(mutant), mutant.change, mutant.became[1]) in reasons:
+                result = "judged"
+            print("%s: %s:%s: %s at %s becomes %s: %s" % (result, *key_of(mutant), code_of(mutant)), flush=True)
+        with caught.lock:
+            rows.append([*key_of(mutant), result, by, "%.0f" % (time.monotonic() - start), src])
+            write(rows)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(one, mutants))
+        list(pool.map(one, [mutant for mutant in mutants if key_of(mutant) not in known]))
     return rows
+
+
+def source():
+    """The name that git gives src/ of the last commit."""
+    return subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD:src"], stdout=subprocess.PIPE, text=True,
+                          check=True).stdout.strip()
+
+
+def write(rows):
+    os.makedirs(os.path.dirname(OUT), exist_ok=True)
+    with open(OUT, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([COLUMNS, *sorted(rows, key=lambda row: (row[0], int(row[1]), row))])
+
+
+def settled():
+    """The rows of former runs of the same src/ that more tests cannot change, by mutant."""
+    src = source()
+    return {tuple(row.values())[:5]: list(row.values()) for row in results.read(OUT)
+            if row["src"] == src and row["result"] in ("caught", "equal", "refused")}
 
 
 def main():
@@ -220,19 +256,19 @@ def main():
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--most", type=int, help="of these, spread over all files")
     parser.add_argument("--files", default="", help="a part of their paths")
+    parser.add_argument("--seconds", type=float, help="of processor time for each mutant")
+    parser.add_argument("--resume", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--record", action="store_true")
     arguments = parser.parse_args()
     mutants = list(chosen(arguments.count, arguments.files))
     if arguments.most:
         mutants = random.Random(1).sample(mutants, min(arguments.most, len(mutants)))
-    rows = run(mutants, arguments.jobs)
-    os.makedirs(os.path.dirname(OUT), exist_ok=True)
-    with open(OUT, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerows([COLUMNS, *sorted(rows)])
+    asked = set(map(key_of, mutants))
+    known = {key: row for key, row in settled().items() if key in asked} if arguments.resume else {}
+    rows = run(mutants, arguments.jobs, arguments.seconds, known)
     counts = collections.Counter(row[5] for row in rows)
-    asked = counts["caught"] + counts["alive"]
+    asked = counts["caught"] + counts["alive"] + counts["open"]
     share = round(100 * counts["caught"] / max(asked, 1), 1)
     print("%d mutants: %s; %.1f %% of %d caught" % (len(rows), ", ".join("%d %s" % (n, what) for what, n in sorted(counts.items())),
                                                     share, asked))

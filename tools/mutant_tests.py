@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""The tests that judge mutants: the time of each, and the lines of src/ that it runs.
+
+They are the plays, each test of tests.elf by itself, and host programs. A build with the counters of `make coverage`
+tells once for each commit which lines a test runs: a change in any other line it cannot notice.
+"""
+import collections
+import json
+import os
+import re
+import resource
+import subprocess
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+# host programs that judge the engine in seconds; the rest (soaks, fuzzers, oracles of many worlds) takes minutes
+PROGRAMS = ["host_head", "host_motion", "host_pools", "host_wake", "host_replay", "host_encounter", "host_roll", "host_bounce",
+            "host_rest", "host_scenes", "host_sheet", "host_recall", "host_rules", "host_physics"]
+COUNTED = "build/host-covered/"
+# The converter is not made of the changed engine: its meshes would be other ones.
+BUILD = ["make", "-s", "BOARD=host", "WARNINGS=-w", "-o", "build/tools/carom-mesh", "-o", "build/tools/rom_scene"]
+
+
+class Test(collections.namedtuple("Test", "name seconds lines executable")):
+    """`lines` that it runs, and the `executable` ones, are {file: set of lines}."""
+
+    @property
+    def program(self):
+        return self.name.split()[0]
+
+    def command(self, folder="build/host/"):
+        program, *select = self.name.split()
+        plays = ["tools/plays.py"] if program == "matrix.elf" and folder != COUNTED else []
+        return [*plays, folder + program, *select]
+
+
+def make(folder, programs, check=False, *variables):
+    where = COUNTED if variables else "build/host/"
+    return subprocess.run([*BUILD, *variables, *(where + name for name in sorted(programs))], cwd=folder, check=check,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+
+
+def clone(number):
+    """A clone of the last commit, with its meshes."""
+    folder = os.path.join(ROOT, "build", "mutants", str(number))
+    if not os.path.isdir(folder):
+        subprocess.run(["git", "clone", "--quiet", "--no-local", ROOT, folder], check=True)
+    subprocess.run(["git", "fetch", "--quiet", "origin", "HEAD"], cwd=folder, check=True)
+    subprocess.run(["git", "reset", "--quiet", "--hard", "FETCH_HEAD"], cwd=folder, check=True)
+    subprocess.run(["make", "-s", "BOARD=host", "build/host/matrix.elf"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return folder
+
+
+def names(folder):
+    """The tests; a test of tests.elf prints its name on a line of its own."""
+    said = subprocess.run(["build/host/tests.elf"], cwd=folder, stdout=subprocess.PIPE, text=True, check=True).stdout
+    return ["matrix.elf", *(name + ".elf" for name in PROGRAMS), *("tests.elf " + name for name in re.findall(r"^ok \d+ - (\S+)", said, re.M))]
+
+
+def lines(folder, counts, program):
+    """The lines of src/ that ran, and those that could."""
+    subprocess.run(["llvm-profdata-19", "merge", "-o", counts, counts + ".raw"], check=True)
+    said = subprocess.run(["llvm-cov-19", "export", "-format=lcov", "-skip-branches", "-skip-functions", "-instr-profile", counts,
+                           COUNTED + program], cwd=folder, stdout=subprocess.PIPE, text=True, check=True).stdout
+    ran, could = {}, {}
+    for line in said.splitlines():
+        if line.startswith("SF:"):
+            path = os.path.relpath(line[3:], folder)
+        elif line.startswith("DA:"):
+            number, count = map(int, line[3:].split(",")[:2])
+            could.setdefault(path, []).append(number)
+            if count:
+                ran.setdefault(path, []).append(number)
+    return ran, could
+
+
+def measured(folder):
+    """[name, seconds, lines that it runs] of each test, and {program: lines that could run}."""
+    make(folder, ["tests.elf"], True)
+    make(folder, [name + ".elf" for name in ["tests", "matrix", *PROGRAMS]], True, "COVERED=1")
+    rows, executable, counts = [], {}, os.path.join(folder, "build", "counts")
+    for test in (Test(name, 0, {}, {}) for name in names(folder)):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        subprocess.run(test.command(COUNTED), cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=True,
+                       env=dict(os.environ, LLVM_PROFILE_FILE=counts + ".raw"))
+        seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        ran, executable[test.program] = lines(folder, counts, test.program)
+        rows.append([test.name, seconds, ran])
+    return [rows, executable]
+
+
+def known(folder):
+    """The tests of the last commit; measured if they were not yet."""
+    tree = subprocess.run(["git", "rev-parse", "HEAD:src", "HEAD:tests"], cwd=folder, stdout=subprocess.PIPE, text=True, check=True).stdout
+    kept = os.path.join(ROOT, "build", "mutants", "tests-%s.json" % "-".join(word[:8] for word in tree.split()))
+    if not os.path.exists(kept):
+        found = measured(folder)
+        with open(kept, "w") as file:
+            json.dump(found, file)
+    with open(kept) as file:
+        rows, executable = json.load(file)
+    sets = {program: {path: set(numbers) for path, numbers in files.items()} for program, files in executable.items()}
+    return [Test(name, seconds, {path: set(numbers) for path, numbers in ran.items()}, sets[name.split()[0]])
+            for name, seconds, ran in rows]
