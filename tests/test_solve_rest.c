@@ -39,9 +39,10 @@ static void test_too_near(void)
     hand_make_cube();
     for (int n = 0; n < 3; n++) {
         double speed = n == 0 ? 0.25 : 1e-6, v[3], w[3], lacks, gap;
-        int32_t skin = hand.bodies[1].def.skin_q22;
+        int32_t skin;
 
         hand_begin(1, 0);
+        skin = hand.bodies[1].def.skin_q22;
         hand_set_surface(0, 0);
         hand_set_motion(1, (double[3]){0, 0, -speed}, (double[3]){0, 0, 0});
         hand_touch(0, 0, below, hand_up, n == 2 ? skin / 16 : -skin / 32);

@@ -181,10 +181,11 @@ static void test_rigid(void)
  */
 static void test_lift(void)
 {
-    const int64_t skin = (int64_t)box.mesh.radius_q22 << 10 >> 11;
     int32_t before = 0;
+    int64_t skin;
 
     begin(MOST, 0, 1 << 15);
+    skin = (int64_t)box.mesh.radius_q22 << 10 >> 11;
     settle();
     for (int frame = 1; frame <= 400; frame++) {
         int32_t phase = triangle(frame, 64), height = phase * (128 - (int32_t)carom_abs(phase)) / 4;
@@ -242,11 +243,11 @@ static void test_aside(void)
  */
 static void test_jump(void)
 {
-    const int64_t skin = (int64_t)box.mesh.radius_q22 << 10 >> 11;
-    int64_t lower_q32, upper_q32, apart_q32;
+    int64_t skin, lower_q32, upper_q32, apart_q32;
     int other;
 
     begin(MOST, 0, 1 << 15);
+    skin = (int64_t)box.mesh.radius_q22 << 10 >> 11;
     box_def.position.c[2] += 3 * HALF;
     other = carom_body_add(world, &box_def);
     settle();

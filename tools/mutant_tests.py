@@ -16,8 +16,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PROGRAMS = ["host_head", "host_motion", "host_pools", "host_wake", "host_replay", "host_encounter", "host_roll", "host_bounce",
             "host_rest", "host_scenes", "host_sheet", "host_recall", "host_rules", "host_physics"]
 COUNTED = "build/host-covered/"
-# The converter is not made of the changed engine: its meshes would be other ones.
-BUILD = ["make", "-s", "BOARD=host", "WARNINGS=-w", "-o", "build/tools/carom-mesh", "-o", "build/tools/rom_scene"]
+# without what debuggers want, so that objects that are the same code are the same bytes
+BUILD = ["make", "-s", "BOARD=host", "WARNINGS=-w -g0"]
 
 
 class Test(collections.namedtuple("Test", "name seconds lines executable")):
@@ -29,24 +29,29 @@ class Test(collections.namedtuple("Test", "name seconds lines executable")):
 
     def command(self, folder="build/host/"):
         program, *select = self.name.split()
-        plays = ["tools/plays.py"] if program == "matrix.elf" and folder != COUNTED else []
-        return [*plays, folder + program, *select]
+        return ["stdbuf", "-oL", folder + program, *select]
 
 
-def make(folder, programs, check=False, *variables):
-    where = COUNTED if variables else "build/host/"
-    return subprocess.run([*BUILD, *variables, *(where + name for name in sorted(programs))], cwd=folder, check=check,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+def make(folder, *targets, check=False):
+    return subprocess.run([*BUILD, *targets], cwd=folder, check=check, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL).returncode == 0
+
+
+def links(folder, programs):
+    """The commands that link programs: make would make the converter of the changed engine first, and all meshes with it."""
+    said = subprocess.run([*BUILD, "-n", "-W", "build/host/libcarom.a", *("build/host/" + name for name in programs)], cwd=folder,
+                          stdout=subprocess.PIPE, text=True, check=True).stdout
+    return dict(reversed(found) for found in re.findall(r"^(cc .* -o build/host/(\w+\.elf) .*)$", said, re.M))
 
 
 def clone(number):
-    """A clone of the last commit, with its meshes."""
+    """A clone of the last commit, built."""
     folder = os.path.join(ROOT, "build", "mutants", str(number))
     if not os.path.isdir(folder):
         subprocess.run(["git", "clone", "--quiet", "--no-local", ROOT, folder], check=True)
     subprocess.run(["git", "fetch", "--quiet", "origin", "HEAD"], cwd=folder, check=True)
     subprocess.run(["git", "reset", "--quiet", "--hard", "FETCH_HEAD"], cwd=folder, check=True)
-    subprocess.run(["make", "-s", "BOARD=host", "build/host/matrix.elf"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    make(folder, *("build/host/%s.elf" % name for name in ("tests", "matrix", *PROGRAMS)), check=True)
     return folder
 
 
@@ -75,8 +80,7 @@ def lines(folder, counts, program):
 
 def measured(folder):
     """[name, seconds, lines that it runs] of each test, and {program: lines that could run}."""
-    make(folder, ["tests.elf"], True)
-    make(folder, [name + ".elf" for name in ["tests", "matrix", *PROGRAMS]], True, "COVERED=1")
+    make(folder, "COVERED=1", *("%s%s.elf" % (COUNTED, name) for name in ("tests", "matrix", *PROGRAMS)), check=True)
     rows, executable, counts = [], {}, os.path.join(folder, "build", "counts")
     for test in (Test(name, 0, {}, {}) for name in names(folder)):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
