@@ -112,25 +112,29 @@ static void test_merged_contacts(void)
  */
 static void test_thin_spin(void)
 {
-    carom_v3_q40 w;
-    carom_m3_q30 r;
-    struct body b;
-    struct body_state s;
+    const int64_t most = (int64_t)1 << (40 + BODY_SPIN_BITS);
 
-    shape_box(&box, 12, 8, 8, 16000);
-    shape_body(&box, true, &b, &s);
-    body_set_mass(&b, fix_scale(ONE, 40));
-    fix_matrix(&r, &s.rotation);
-    for (int bits = 0; bits < 61; bits++) {
-        const int64_t most = (int64_t)1 << (40 + BODY_SPIN_BITS);
+    for (int axis = 0; axis < 3; axis++) {
+        carom_m3_q30 r;
+        struct body b;
+        struct body_state s;
 
-        s.angular.c[2] = (int64_t)1 << bits;
-        body_spin(&b, &s, &r, &w);
-        /* J = (64 + 64) / 12 quanta^2, so w = L 3 2^19 */
-        CHECK_EQ(body_spin_fits(&b, &s, &r), bits + 20 < 40 + BODY_SPIN_BITS);
-        CHECK_MORE(w.c[2], 0);
-        CHECK_AT_MOST(w.c[2], most);
-        CHECK(w.c[2] == most || (w.c[2] >> 20 >= s.angular.c[2] && w.c[2] >> 21 <= s.angular.c[2]));
+        shape_box(&box, 12, axis == 0 ? 16000 : 8, axis == 1 ? 16000 : 8, axis == 2 ? 16000 : 8);
+        shape_body(&box, true, &b, &s);
+        body_set_mass(&b, fix_scale(ONE, 40));
+        fix_matrix(&r, &s.rotation);
+        for (int bits = 0; bits < 61; bits++) {
+            carom_v3_q40 w;
+
+            s.angular.c[axis] = (int64_t)1 << bits;
+            body_spin(&b, &s, &r, &w);
+            /* J = (64 + 64) / 12 quanta^2, so w = L 3 2^19 */
+            CHECK_EQ(body_spin_fits(&b, &s, &r), bits + 20 < 40 + BODY_SPIN_BITS);
+            CHECK_MORE(w.c[axis], 0);
+            CHECK_AT_MOST(w.c[axis], most);
+            CHECK(w.c[axis] == most ||
+                  (w.c[axis] >> 20 >= s.angular.c[axis] && w.c[axis] >> 21 <= s.angular.c[axis]));
+        }
     }
 }
 

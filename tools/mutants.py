@@ -1,7 +1,7 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """Change the engine in one place at a time and see whether the tests notice:
-tools/mutants.py [--count N] [--most N] [--files PART] [--seconds S] [--resume]
+tools/mutants.py [--count N] [--most N] [--files PART] [--seconds S] [--resume] [--again]
 
 A mutant is one change in a source of src/: an operator, a constant by one, a dropped statement or a negated condition. Files have
 mutants by their length, each at least one; the same numbers are the same mutants as long as the file does not change. A mutant
@@ -13,15 +13,16 @@ is
     alive     no test notices, and it is not listed there
     open      no test noticed in --seconds, and some were not asked
 Each worker has a clone of the last commit in build/mutants. It asks the tests that run the changed line (tools/mutant_tests.py), first
-those that caught most mutants of the folder for their time. Rows go to out/mutants.csv as they come. --resume keeps its caught,
-equal and refused ones if src/ is the same, and asks for the rest again. Mutants that are alive or open are printed, and
-count as missed. --record writes the share of those caught to docs/evidence.md.
+those that caught most mutants of the folder for their time. Rows go to out/mutants.csv as they come. --resume keeps those that are there if
+src/ is the same, so parts of a whole run are merged; --again asks again for those that no test noticed. Mutants that are alive or
+open are printed, and count as missed. --record writes the share of those caught to docs/evidence.md.
 """
 import argparse
 import collections
 import concurrent.futures
 import csv
 import glob
+import hashlib
 import os
 import queue
 import random
@@ -167,18 +168,19 @@ class Worker:
         asked = [test for test in self.tests if mutant.line in test.lines.get(mutant.file, ())]
         if not any(mutant.line in test.executable.get(mutant.file, ()) for test in self.tests):
             asked = self.tests  # a line that the compiler does not count
-        linked, start = set(), time.process_time() + sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+        linked, spent, result = set(), 0, "alive"
         for test in self.caught.order(folder, asked):
+            if seconds and spent + test.seconds > seconds:
+                result = "open"
+                continue
             if test.program not in linked:
                 subprocess.run(self.links[test.program], shell=True, cwd=self.folder, check=True)
                 linked.add(test.program)
+            spent += test.seconds
             if not self.passes(test):
                 self.caught.add(folder, test.name)
                 return "caught", test.name
-            spent = time.process_time() + sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]) - start
-            if seconds and spent > seconds and test is not asked[-1]:
-                return "open", ""
-        return "alive", ""
+        return result, ""
 
     def judge(self, mutant, seconds):
         """The result of a mutant, and who noticed it."""
@@ -243,9 +245,12 @@ def run(mutants, jobs, seconds, known):
 
 
 def source():
-    """The name that git gives src/ of the last commit."""
-    return subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD:src"], stdout=subprocess.PIPE, text=True,
-                          check=True).stdout.strip()
+    """A digest of src/ without its comments."""
+    said = hashlib.sha256()
+    for path in sorted(glob.glob("src/*/*.[ch]", root_dir=ROOT)):
+        with open(os.path.join(ROOT, path)) as file:
+            said.update(re.sub(r"\s+", " ", blanked(file.read())).encode())
+    return said.hexdigest()[:8]
 
 
 def write(rows):
@@ -254,11 +259,11 @@ def write(rows):
         csv.writer(file, lineterminator="\n").writerows([COLUMNS, *sorted(rows, key=lambda row: (row[0], int(row[1]), row))])
 
 
-def settled():
-    """The rows of former runs of the same src/ that more tests cannot change, by mutant."""
+def former(again):
+    """The rows of former runs of the same src/, by mutant; without those that more tests may change, if they are asked again."""
     src = source()
     return {tuple(row.values())[:5]: list(row.values()) for row in results.read(OUT)
-            if row["src"] == src and row["result"] in ("caught", "equal", "refused")}
+            if row["src"] == src and not (again and row["result"] in ("alive", "open", "judged"))}
 
 
 def main():
@@ -266,8 +271,9 @@ def main():
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--most", type=int, help="of these, spread over all files")
     parser.add_argument("--files", default="", help="a part of their paths")
-    parser.add_argument("--seconds", type=float, help="of processor time for each mutant")
-    parser.add_argument("--resume", action="store_true")
+    parser.add_argument("--seconds", type=float, help="that the tests of a mutant may take without it")
+    parser.add_argument("--resume", action="store_true", help="keep the results of former runs of the same src/")
+    parser.add_argument("--again", action="store_true", help="the same, but ask again for those that no test noticed")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--record", action="store_true")
     arguments = parser.parse_args()
@@ -275,7 +281,8 @@ def main():
     if arguments.most:
         mutants = random.Random(1).sample(mutants, min(arguments.most, len(mutants)))
     asked = set(map(key_of, mutants))
-    known = {key: row for key, row in settled().items() if key in asked} if arguments.resume else {}
+    kept = former(arguments.again) if arguments.resume or arguments.again else {}
+    known = {key: row for key, row in kept.items() if key in asked}
     rows = run(mutants, arguments.jobs, arguments.seconds, known)
     counts = collections.Counter(row[5] for row in rows)
     asked = counts["caught"] + counts["alive"] + counts["open"]

@@ -248,7 +248,7 @@ void fix_mul_scaled3(int64_t out[3], const int64_t v[3], struct fix_scaled s);
 /* Length of a vector of int64 components, rounded up by at most one part in 2^26; exact for 0. */
 int64_t fix_length(const int64_t v[3]);
 
-/* At least |v|, at most 1.16 of it. */
+/* At least |v|, at most 1.23 of it. */
 int64_t fix_length_bound(const int64_t v[3]);
 
 /*

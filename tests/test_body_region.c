@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Regions of motion and sweeps. What they say about a body's way is compared with its places, which
+ * the test computes in double precision from the parabola and the Cayley vector.
+ */
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
+
+#ifdef TEST_LONG
+#define CASES 4000
+#else
+#define CASES 60
+#endif
+#define CORNERS 8
+
+/* A pose: a centre, and axes as columns. */
+struct place {
+    double at[3], axes[3][3];
+};
+
+static struct shape shape;
+static struct body body;
+static struct body_state state;
+
+static void random_vector(struct test_random *r, double size, int64_t v[3], int bits)
+{
+    int64_t most = real_round(size * real_power2(bits) / 1.7320508);
+
+    for (int k = 0; k < 3; k++) {
+        v[k] = test_random_range(r, -most, most);
+    }
+}
+
+static double length_q40(const carom_v3_q40 *v)
+{
+    return real_length((double[3]){real(v->c[0], 40), real(v->c[1], 40), real(v->c[2], 40)});
+}
+
+static double length_q30(const carom_v3_q30 *v)
+{
+    return real_length((double[3]){real(v->c[0], 30), real(v->c[1], 30), real(v->c[2], 30)});
+}
+
+/* A box of three different sides with any place and rotation, and a motion. */
+static void throw_box(struct test_random *r, double speed, double spin)
+{
+    carom_v3_q40 v, w;
+
+    shape_box(&shape, 12, 4096, 2458, 1228);
+    shape_body(&shape, true, &body, &state);
+    state.rotation = shape_random_turn(r);
+    random_vector(r, 100, state.position.c, 32);
+    random_vector(r, speed, v.c, 40);
+    random_vector(r, spin, w.c, 40);
+    body_set_motion(&body, &state, &v, &w);
+}
+
+/* The axes of q turned on by t times a Cayley vector in them: Rodrigues' formula. */
+static void turn_axes(double axes[3][3], const carom_quat_q30 *q, const carom_v3_q30 *u, double t)
+{
+    double w[3], first[3][3];
+
+    real_matrix(first, (double[4]){q->c[0], q->c[1], q->c[2], q->c[3]});
+    for (int k = 0; k < 3; k++) {
+        w[k] = real(u->c[k], 30) * t;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        double e[3] = {axis == 0, axis == 1, axis == 2}, across[3], turned[3], column[3];
+
+        real_cross(across, w, e);
+        for (int k = 0; k < 3; k++) {
+            turned[k] = ((1 - real_dot(w, w)) * e[k] + 2 * across[k] + 2 * w[axis] * w[k]) /
+                        (1 + real_dot(w, w));
+        }
+        real_rotate(column, first, turned);
+        for (int k = 0; k < 3; k++) {
+            axes[k][axis] = column[k];
+        }
+    }
+}
+
+/* The region's place at t of its time. */
+static struct place region_place(double t)
+{
+    const struct body_region *region = &body.search.region;
+    struct place found;
+
+    for (int k = 0; k < 3; k++) {
+        found.at[k] = real(region->at.c[k], 32) + real(region->way.c[k], 40) * t +
+                      real(region->bend.c[k], 40) * t * t;
+    }
+    turn_axes(found.axes, &region->q, &region->u, t);
+    return found;
+}
+
+/* The place at t of a whole path from the state. */
+static struct place path_place(double t)
+{
+    const struct body_path *path = body_path(&body);
+    struct place found;
+
+    for (int k = 0; k < 3; k++) {
+        found.at[k] = real(state.position.c[k], 32) + real(path->v.c[k], 40) * t +
+                      real(path->g.c[k], 40) * t * t;
+    }
+    turn_axes(found.axes, &state.rotation, &path->u, t);
+    return found;
+}
+
+/* The largest distance of a corner in one place from itself in another. */
+static double apart(const struct place *a, const struct place *b)
+{
+    double most = 0;
+
+    for (uint32_t corner = 0; corner < CORNERS; corner++) {
+        carom_v3_q22 local = mesh_vertex(&shape.mesh, corner);
+        double d[3];
+
+        for (int k = 0; k < 3; k++) {
+            d[k] = a->at[k] - b->at[k];
+            for (int j = 0; j < 3; j++) {
+                d[k] += (a->axes[k][j] - b->axes[k][j]) * real(local.c[j], 22);
+            }
+        }
+        most = real_length(d) > most ? real_length(d) : most;
+    }
+    return most;
+}
+
+/*
+ * A body follows its region for a while, and gets another motion. If its region is said to hold,
+ * all of it stays within the room; if not, it goes at least a part of the room away.
+ */
+static void test_holds(void)
+{
+    struct test_random r = {31};
+    int held = 0, left = 0;
+
+    for (int n = 0; n < CASES; n++) {
+        const double sizes[] = {0.3, 0.1, 0.02, 0.003};
+        double size = sizes[n % 4], most = 0, room;
+        carom_v3_q40 v, w, change, g;
+        carom_m3_q30 m;
+        int32_t since_q30, tau_q30;
+        bool holds;
+
+        throw_box(&r, 0.3, 0.3);
+        random_vector(&r, 0.02, g.c, 40);
+        body_predict(&body, &state, CAROM_ONE_Q30, &g);
+        body_region_begin(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30,
+                          (int32_t)real_round(0.2 * size * real_power2(22)));
+        since_q30 = (int32_t)test_random_range(&r, 0, CAROM_ONE_Q30 / 2);
+        tau_q30 = (int32_t)test_random_range(&r, 1 << 24, CAROM_ONE_Q30 - since_q30);
+        fix_matrix(&m, &state.rotation);
+        body_velocity(&body, &state, &v);
+        body_spin(&body, &state, &m, &w);
+        body_advance(&body, &state, since_q30, CAROM_ONE_Q30, &g);
+        body_region_advance(&body, since_q30, CAROM_ONE_Q30);
+        random_vector(&r, size, change.c, 40);
+        for (int k = 0; k < 3; k++) {
+            /* some turn back, some go on with a little more or less */
+            w.c[k] = n % 3 == 0 ? -w.c[k] : w.c[k] + change.c[(k + 1) % 3];
+            v.c[k] += change.c[k];
+        }
+        body_set_motion(&body, &state, &v, &w);
+        body_predict(&body, &state, tau_q30, &g);
+        holds = body_region_holds(&body, tau_q30);
+        for (int i = 0; i <= 8; i++) {
+            struct place in = region_place(real(since_q30, 30) + real(tau_q30, 30) * i / 8);
+            struct place on = path_place(i / 8.0);
+
+            most = apart(&in, &on) > most ? apart(&in, &on) : most;
+        }
+        room = real(body.search.region.room_q22, 22);
+        *(holds ? &held : &left) += 1;
+        if (holds) {
+            CHECK_AT_MOST(most, room);
+        } else {
+            /* turns that did not begin together are compared but for their cubes, see turns_off_q30 */
+            double u_path = length_q30(&body_path(&body)->u),
+                   u_region = length_q30(&body.search.region.u);
+            double cubes = 1.74 * u_path * u_path * u_path + u_region * u_region * u_region;
+
+            CHECK_MORE(3 * most + 2 * cubes * real(body.def.radius_q22, 22), room);
+        }
+    }
+    CHECK_MORE(held, CASES / 10);
+    CHECK_MORE(left, CASES / 10);
+}
+
+static void check_axes(const carom_m3_q30 *found, double wanted[3][3])
+{
+    for (int k = 0; k < 9; k++) {
+        CHECK_LESS(real_abs(real(found->c[k / 3][k % 3], 30) - wanted[k / 3][k % 3]), 1e-7);
+    }
+}
+
+/* What a sweep says of a way between two places of it; `bends` is the length of its t^2 term. */
+static void check_sweep(const struct body_sweep *sweep, struct place (*place)(double), double from,
+                        double to, double bends)
+{
+    struct place start = place(from), end = place(to), before = start;
+    double length = 0;
+
+    for (int i = 1; i <= 16; i++) {
+        struct place next = place(from + (to - from) * i / 16);
+        double d[3] = {next.at[0] - before.at[0], next.at[1] - before.at[1],
+                       next.at[2] - before.at[2]};
+
+        length += real_length(d);
+        before = next;
+    }
+    for (int k = 0; k < 3; k++) {
+        CHECK_LESS(real_abs(real(sweep->way.c[k], 40) - (end.at[k] - start.at[k])), 1e-8);
+        CHECK_LESS(real_abs(real(sweep->at.c[k], 32) - start.at[k]), 1e-6);
+    }
+    /* fix_length_bound is at most sqrt(3 / 2) of a length, for sides of 2 : 1 : 1 */
+    CHECK_AT_LEAST(real(sweep->length_q22, 22), length);
+    CHECK_AT_MOST(real(sweep->length_q22, 22), 1.23 * (length + 2 * bends) + 3e-6);
+    CHECK_AT_LEAST(real(sweep->bend_q22, 22), bends);
+    CHECK_AT_MOST(real(sweep->bend_q22, 22), 1.23 * bends + 1e-6);
+    check_axes(&sweep->start, start.axes);
+    check_axes(&sweep->end, end.axes);
+}
+
+/* Parts of regions that last longer than the path that they continue. */
+static void test_region_sweep(void)
+{
+    struct test_random r = {32};
+
+    for (int n = 0; n < CASES; n++) {
+        int64_t time_q30 = test_random_range(&r, CAROM_ONE_Q30, 8 * (int64_t)CAROM_ONE_Q30);
+        int64_t from_q30 = n % 4 ? test_random_range(&r, 0, time_q30 - 1) : 0;
+        int64_t part_q30 =
+            n % 3 ? test_random_range(&r, 1, time_q30 - from_q30) : time_q30 - from_q30;
+        const struct body_region *region = &body.search.region;
+        double from = (double)from_q30 / (double)time_q30,
+               part = (double)part_q30 / (double)time_q30;
+        struct body_sweep sweep;
+        carom_v3_q40 g;
+
+        throw_box(&r, 0.3, n % 5 ? 0.06 : 0);
+        random_vector(&r, 0.02, g.c, 40);
+        body_predict(&body, &state, CAROM_ONE_Q30, &g);
+        body_region_begin(&body, &state, CAROM_ONE_Q30, time_q30, 1 << 18);
+        body_region_sweep(region, from_q30, part_q30, &sweep);
+        check_sweep(&sweep, region_place, from, from + part,
+                    length_q40(&region->bend) * part * part);
+        CHECK_AT_LEAST(real(sweep.u_q30, 30), length_q30(&region->u) * part);
+        CHECK_AT_MOST(real(sweep.u_q30, 30), length_q30(&region->u) * part + 1e-8);
+        CHECK_AT_LEAST(real(sweep.whole_u_q30, 30), length_q30(&region->u));
+    }
+}
+
+/* A whole path. */
+static void test_path_sweep(void)
+{
+    struct test_random r = {33};
+
+    for (int n = 0; n < CASES; n++) {
+        struct body_sweep sweep;
+        carom_v3_q40 g;
+        int32_t tau_q30;
+
+        throw_box(&r, 0.3, n % 5 ? 0.5 : 0);
+        random_vector(&r, 0.02, g.c, 40);
+        tau_q30 = body_slice(&body, &state, (int32_t)test_random_range(&r, 1 << 24, CAROM_ONE_Q30));
+        body_predict(&body, &state, tau_q30, &g);
+        body_path_sweep(&body, &sweep);
+        check_sweep(&sweep, path_place, 0, 1, length_q40(&body_path(&body)->g));
+        CHECK_AT_LEAST(real(sweep.u_q30, 30), length_q30(&body_path(&body)->u));
+        CHECK_AT_MOST(real(sweep.u_q30, 30), length_q30(&body_path(&body)->u) + 1e-4);
+    }
+}
+
+const struct test tests_body_region[] = {
+    {"body_region/holds", test_holds},
+    {"body_region/region_sweep", test_region_sweep},
+    {"body_region/path_sweep", test_path_sweep},
+    {0},
+};
