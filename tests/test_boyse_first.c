@@ -417,12 +417,88 @@ static void test_curve_at(void)
     }
 }
 
+/* ------------------------------------------------------------------- bounds */
+
+/* Where a vertex of one body is: from the other's place `to`, in the world's axes and in its own. */
+static void seen_at(double axes[2][3], int from, uint32_t v, const double to[3], double t)
+{
+    const carom_v3_q22 local = mesh_vertex(&duo.shape[from].mesh, v);
+    struct candidate any = {.kind = CANDIDATE_VERTEX_FACE};
+    struct duo_features f;
+    double p[3], other[3];
+
+    duo_features_at(&f, &any, t);
+    real_rotate(p, f.pose[from].r,
+                (double[3]){real(local.c[0], 22), real(local.c[1], 22), real(local.c[2], 22)});
+    real_rotate(other, f.pose[1 - from].r, to);
+    for (int k = 0; k < 3; k++) {
+        p[k] += f.pose[from].x[k] - f.pose[1 - from].x[k];
+        axes[0][k] = p[k] - other[k];
+    }
+    real_rotate_back(axes[1], f.pose[1 - from].r, p);
+}
+
+/* The displacement of a vertex is within both bounds: in axes that do not turn, and as seen. */
+static void check_bounds(const struct boyse_view *view, int from, uint32_t v, const double to[3],
+                         double t)
+{
+    const double h = 1e-5, loose = 2e-9;
+    double at[2][3], start[2][3], before[2][3], after[2][3];
+
+    seen_at(start, from, v, to, 0);
+    seen_at(before, from, v, to, -h);
+    seen_at(after, from, v, to, h);
+    seen_at(at, from, v, to, t);
+    for (int axes = 0; axes < 2; axes++) {
+        const struct boyse_bound *bound = axes == 0 ? &view->fixed : &view->seen;
+        double way[3], bend[3];
+
+        for (int k = 0; k < 3; k++) {
+            way[k] = at[axes][k] - start[axes][k];
+            bend[k] = way[k] - (after[axes][k] - before[axes][k]) / (2 * h) * t;
+        }
+        CHECK_AT_MOST(real_length(way), real(bound->way_q22, 22) + loose);
+        CHECK_AT_MOST(real_length(bend), real(bound->bend_q22, 22) + loose);
+    }
+}
+
+/*
+ * Every vertex of either body, as the other sees it and from the other's farthest places. Some
+ * motions are almost turns or almost falls alone.
+ */
+static void test_bounds(void)
+{
+    struct test_random r = {17};
+
+    for (int n = 0; n < CASES / 4; n++) {
+        double v[3], w[3];
+
+        make(n % PAIRINGS);
+        random_motion(&r);
+        random_vector(&r, n / 8 % 2 ? 0.3 : 0, v);
+        random_vector(&r, n / 16 % 2 ? 0.25 : 0, w);
+        memset(duo.state[0].position.c, 0, sizeof duo.state[0].position.c);
+        memset(duo.state[1].position.c, 0, sizeof duo.state[1].position.c);
+        duo_set_paths(v, w, NULL);
+        for (int view = 0; view < 2; view++) {
+            const struct shape *of = &duo.shape[view], *other = &duo.shape[1 - view];
+
+            for (uint32_t i = 0; i < of->raw.vertex_count; i++) {
+                const carom_v3_q22 to = mesh_vertex(
+                    &other->mesh, (uint32_t)test_random_range(&r, 0, other->raw.vertex_count - 1));
+
+                check_bounds(&duo.pair.view[view], view, i,
+                             (double[3]){real(to.c[0], 22), real(to.c[1], 22), real(to.c[2], 22)},
+                             real(test_random_range(&r, 0, 2), 1));
+            }
+        }
+    }
+}
+
 const struct test tests_boyse_first[] = {
-    {"boyse_first/vertex_face", test_vertex_face},
-    {"boyse_first/face_vertex", test_face_vertex},
-    {"boyse_first/edge_edge", test_edge_edge},
-    {"boyse_first/polynomial", test_polynomial},
-    {"boyse_first/quotient", test_quotient},
-    {"boyse_first/curve_at", test_curve_at},
-    {0},
+    {"boyse_first/vertex_face", test_vertex_face}, {"boyse_first/face_vertex", test_face_vertex},
+    {"boyse_first/edge_edge", test_edge_edge},     {"boyse_first/polynomial", test_polynomial},
+    {"boyse_first/quotient", test_quotient},       {"boyse_first/curve_at", test_curve_at},
+
+    {"boyse_first/bounds", test_bounds},           {0},
 };

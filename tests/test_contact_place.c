@@ -131,7 +131,98 @@ static void edge_edge(void)
     check(CANDIDATE_EDGE_EDGE);
 }
 
+/* --------------------------------------------------------------------- faces */
+
+/* How far a face looks along a direction of the world. */
+static double looks_along(int side, uint32_t face, struct duo_pose *pose, const double n[3])
+{
+    double p[3][3], d[2][3], across[3], normal[3];
+
+    for (int k = 0; k < 3; k++) {
+        carom_v3_q22 v = mesh_vertex(&duo.shape[side].mesh, duo.shape[side].faces[face][k]);
+
+        for (int i = 0; i < 3; i++) {
+            p[k][i] = real(v.c[i], 22);
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        d[0][i] = p[1][i] - p[0][i];
+        d[1][i] = p[2][i] - p[0][i];
+    }
+    real_cross(across, d[0], d[1]);
+    real_rotate(normal, pose->r, across);
+    return real_dot(normal, n) / real_length(normal);
+}
+
+/* True if a face has the vertex of a key, or both ends of its edge. */
+static bool has_feature(int side, uint32_t face, const struct candidate *key)
+{
+    const struct carom_edge *edge = &duo.shape[side].mesh.edges[side == 0 ? key->i : key->j];
+    bool edges = key->kind == CANDIDATE_EDGE_EDGE;
+    int found = 0;
+
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = duo.shape[side].faces[face][k];
+
+        found += edges ? v == edge->vertex[0] || v == edge->vertex[1] : v == key->i;
+    }
+    return found == (edges ? 2 : 1);
+}
+
+/*
+ * The face of a contact is the one of its face feature; at an edge or a vertex it is, among the
+ * faces there, the one that looks most towards the other body.
+ */
+static void faces(void)
+{
+    static const int kinds[] = {CANDIDATE_EDGE_EDGE, CANDIDATE_VERTEX_FACE, CANDIDATE_FACE_VERTEX};
+    struct test_random r = {9};
+
+    shape_box(&duo.shape[0], 12, 4096, 2500, 3000);
+    shape_tetrahedron(&duo.shape[1], 12, 3000);
+    for (int n = 0; n < CASES; n++) {
+        struct candidate c;
+        struct duo_features f;
+        carom_v3_q30 normal;
+        double towards[2][3], length;
+
+        place_bodies(&r);
+        c = random_candidate(&r, kinds[n % 3]);
+        duo_features_at(&f, &c, 0);
+        for (int k = 0; k < 3; k++) {
+            towards[0][k] = real(test_random_range(&r, -1000, 1000), 10) + 1e-9;
+        }
+        length = real_length(towards[0]);
+        for (int k = 0; k < 3; k++) {
+            /* the normal looks from b to a */
+            towards[0][k] /= -length;
+            towards[1][k] = -towards[0][k];
+            normal.c[k] = (int32_t)real_round(towards[1][k] * CAROM_ONE_Q30);
+        }
+        for (int side = 0; side < 2; side++) {
+            uint32_t face = contact_face(&duo.body[side], &c, side, &normal);
+            double most = -1;
+
+            CHECK_LESS(face, duo.shape[side].raw.face_count);
+            if (c.kind != CANDIDATE_EDGE_EDGE && side != duo_vertex_side(c.kind)) {
+                CHECK_EQ(face, c.j);
+                continue;
+            }
+            for (uint32_t i = 0; i < duo.shape[side].raw.face_count; i++) {
+                double here = looks_along(side, i, &f.pose[side], towards[side]);
+
+                most = has_feature(side, i, &c) && here > most ? here : most;
+            }
+            if (face < duo.shape[side].raw.face_count) {
+                CHECK(has_feature(side, face, &c));
+                CHECK_LESS(most - looks_along(side, face, &f.pose[side], towards[side]), 1e-7);
+            }
+        }
+    }
+}
+
 const struct test tests_contact_place[] = {{"contact_place/vertex_face", vertex_face},
                                            {"contact_place/face_vertex", face_vertex},
                                            {"contact_place/edge_edge", edge_edge},
+                                           {"contact_place/faces", faces},
                                            {0}};

@@ -151,7 +151,7 @@ class Worker:
         processor's, so that a busy machine fails none."""
         limit = int(5 + SLOWER * test.seconds)
         process = subprocess.Popen(test.command(), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.DEVNULL, text=True, errors="replace",
+                                   stderr=subprocess.DEVNULL, text=True, errors="replace", start_new_session=True,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1)))
         held = True
         for line in process.stdout:
