@@ -29,7 +29,9 @@ static void begin(void)
     shape_plane(&flat, 10, SIDE, 1024);
     CHECK_EQ(flat.raw.vertex_count, COUNT);
     CHECK_EQ(flat.raw.face_count, FACES);
+    memset(block[0], 0x7f, BYTES); /* whatever was there */
     CHECK_EQ(carom_surface_build(&mesh, &flat.raw, block[0], BYTES), CAROM_OK);
+    CHECK_EQ(mesh_drift_most(&mesh), 0);
     memcpy(moved, flat.vertices, sizeof moved);
 }
 
@@ -53,11 +55,20 @@ static void check_leaves(void)
 {
     for (uint32_t i = 0; i < mesh.leaf_count; i++) {
         const struct carom_leaf *leaf = &mesh.leaves[i];
+        int64_t low = INT64_MAX, high = INT64_MIN;
         uint32_t owned = 0;
 
         for (int v = 0; v < leaf->vertex_count; v++) {
-            CHECK(inside_leaf(&mesh, leaf, mesh.leaf_vertices[leaf->first_vertex + (uint32_t)v]));
+            uint16_t vertex = mesh.leaf_vertices[leaf->first_vertex + (uint32_t)v];
+            int64_t height = carom_dot(leaf->axis.c, mesh_vertex(&mesh, vertex).c) >> 30;
+
+            CHECK(inside_leaf(&mesh, leaf, vertex));
+            low = height < low ? height : low;
+            high = height > high ? height : high;
         }
+        /* the slab is no thicker than the leaf */
+        CHECK_NEAR(leaf->low_q22, low, 1);
+        CHECK_NEAR(leaf->high_q22, high, 1);
         for (uint32_t f = leaf->first_face; f < leaf->first_face + leaf->face_count; f++) {
             for (int k = 0; k < 3; k++) {
                 if (mesh.faces[mesh.leaf_faces[f]].own & 1 << k) {
