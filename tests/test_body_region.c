@@ -177,7 +177,7 @@ static void test_holds(void)
         if (holds) {
             CHECK_AT_MOST(most, room);
         } else {
-            /* turns that did not begin together are compared but for their cubes, see turns_off_q30 */
+            /* turns that did not begin together are compared but for their cubes */
             double u_path = length_q30(&body_path(&body)->u),
                    u_region = length_q30(&body.search.region.u);
             double cubes = 1.74 * u_path * u_path * u_path + u_region * u_region * u_region;

@@ -171,6 +171,19 @@ static void test_rise(void)
     CHECK_EQ(move(&rise_q22), CAROM_OK);
     CHECK_AT_LEAST(rise_q22, 32 << 12);
     CHECK_AT_MOST(rise_q22, 80 << 12); /* 64 / 2, and not much above 64 / n.z */
+
+    /* one steep side: a slope of 3 rises by 3 * 64, and 1 / n.z is sqrt(10) */
+    begin();
+    for (int v = 0; v < COUNT; v++) {
+        moved[v][2] = (int16_t)(moved[v][0] > 0 ? 3 * moved[v][0] : 0);
+    }
+    CHECK_EQ(move(&rise_q22), CAROM_OK);
+    for (int v = 0; v < COUNT; v++) {
+        moved[v][0] = (int16_t)(moved[v][0] - 64);
+    }
+    CHECK_EQ(move(&rise_q22), CAROM_OK);
+    CHECK_AT_LEAST(rise_q22, 192 << 12);
+    CHECK_AT_MOST(rise_q22, 205 << 12);
 }
 
 /* A refused update leaves the mesh as it was. */
@@ -249,9 +262,8 @@ static void test_overlap(void)
 }
 
 /* Every vertex moves by (x/8, y/4, x/16 + y/32), so every point between them does, too. */
-static void test_drift(void)
+static void move_evenly(void)
 {
-    struct test_random r = {99};
     int64_t rise_q22;
 
     begin();
@@ -263,6 +275,13 @@ static void test_drift(void)
         moved[v][2] = (int16_t)(p[0] / 16 + p[1] / 32);
     }
     CHECK_EQ(move(&rise_q22), CAROM_OK);
+}
+
+static void test_drift(void)
+{
+    struct test_random r = {99};
+
+    move_evenly();
     for (int i = 0; i < 300; i++) {
         uint32_t face = (uint32_t)test_random_range(&r, 0, FACES - 1);
         uint32_t edge = mesh.faces[face].edge[i % 3];
@@ -298,8 +317,52 @@ static void test_drift(void)
     CHECK_EQ(mesh_drift_most(&mesh), 0);
 }
 
+/*
+ * A contact drifts as its feature of the surface does, in world axes: the body is turned by 90
+ * degrees about x.
+ */
+static void test_contact_drift(void)
+{
+    static const int kinds[] = {CANDIDATE_VERTEX_FACE, CANDIDATE_FACE_VERTEX, CANDIDATE_EDGE_EDGE};
+    const carom_m3_q30 turned = {
+        {{CAROM_ONE_Q30, 0, 0}, {0, 0, -CAROM_ONE_Q30}, {0, CAROM_ONE_Q30, 0}}};
+    struct test_random r = {98};
+    struct body body;
+    struct boyse_pair pair = {.b = &body};
+
+    move_evenly();
+    memset(&body, 0, sizeof body);
+    body.def.mesh = &mesh;
+    body.path.start.r = turned;
+    for (int i = 0; i < 300; i++) {
+        uint32_t face = (uint32_t)test_random_range(&r, 0, FACES - 1);
+        uint32_t edge = mesh.faces[face].edge[i % 3];
+        const uint16_t *end = mesh.edges[edge].vertex;
+        const int16_t *from = moved[end[0]], *to = moved[end[1]];
+        struct candidate key = {.kind = (uint8_t)kinds[i % 3], .i = end[0], .j = face};
+        int64_t weight = key.kind == CANDIDATE_FACE_VERTEX ? 0 : test_random_range(&r, 0, 1024);
+        carom_v3_q40 arm, drift;
+        int64_t at_q32[3];
+
+        key.j = key.kind == CANDIDATE_EDGE_EDGE ? edge : face;
+        for (int k = 0; k < 3; k++) {
+            at_q32[k] = ((1024 - weight) * from[k] + weight * to[k]) << 12;
+        }
+        arm = (carom_v3_q40){{at_q32[0] << 8, -at_q32[2] << 8, at_q32[1] << 8}};
+        contact_drift(&pair, &key, &arm, &drift);
+        /* x' = 9/8 x, y' = 5/4 y; the displacement is (x/8, y/4, x/16 + y/32) */
+        CHECK_NEAR(drift.c[0] >> 8, at_q32[0] / 9, 1 << 12);
+        CHECK_NEAR(drift.c[1] >> 8, -(at_q32[0] / 18 + at_q32[1] / 40), 1 << 22);
+        CHECK_NEAR(drift.c[2] >> 8, at_q32[1] / 5, 1 << 12);
+    }
+}
+
 const struct test tests_mesh_surface[] = {
-    {"mesh_surface/refresh", test_refresh}, {"mesh_surface/rise", test_rise},
-    {"mesh_surface/refused", test_refused}, {"mesh_surface/overlap", test_overlap},
-    {"mesh_surface/drift", test_drift},     {0},
+    {"mesh_surface/refresh", test_refresh},
+    {"mesh_surface/rise", test_rise},
+    {"mesh_surface/refused", test_refused},
+    {"mesh_surface/overlap", test_overlap},
+    {"mesh_surface/drift", test_drift},
+    {"mesh_surface/contact_drift", test_contact_drift},
+    {0},
 };
