@@ -346,9 +346,9 @@ static void test_contact_drift(void)
 
         key.j = key.kind == CANDIDATE_EDGE_EDGE ? edge : face;
         for (int k = 0; k < 3; k++) {
-            at_q32[k] = ((1024 - weight) * from[k] + weight * to[k]) << 12;
+            at_q32[k] = ((1024 - weight) * from[k] + weight * to[k]) * 4096;
         }
-        arm = (carom_v3_q40){{at_q32[0] << 8, -at_q32[2] << 8, at_q32[1] << 8}};
+        arm = (carom_v3_q40){{at_q32[0] * 256, at_q32[2] * -256, at_q32[1] * 256}};
         contact_drift(&pair, &key, &arm, &drift);
         /* x' = 9/8 x, y' = 5/4 y; the displacement is (x/8, y/4, x/16 + y/32) */
         CHECK_NEAR(drift.c[0] >> 8, at_q32[0] / 9, 1 << 12);

@@ -12,6 +12,7 @@
 #include "lib/shapes.h"
 #include "lib/test.h"
 #include "num/fnv.h"
+#include "solve/joint.h"
 
 #define PAIRS 4
 #define CAPS  4, PAIRS, 24, 32, 0, 32, 3, 1
@@ -587,7 +588,23 @@ static void test_set_again(void)
     CHECK(!state_of(0).asleep);
 }
 
+/* The way from one angle to another is the shorter one around. */
+static void test_turned(void)
+{
+    for (int from = -31; from <= 31; from++) {
+        for (int to = -31; to <= 31; to++) {
+            double way = 0.1 * (to - from);
+
+            way -= way > REAL_PI ? 2 * REAL_PI : way < -REAL_PI ? -2 * REAL_PI : 0;
+            CHECK_NEAR(joint_turned_q40(real_round(0.1 * from * real_power2(40)),
+                                        real_round(0.1 * to * real_power2(40))),
+                       real_round(way * real_power2(40)), 4);
+        }
+    }
+}
+
 const struct test tests_solve_joint[] = {
+    {"solve_joint/turned", test_turned},
     {"solve_joint/hangs", test_hangs},
     {"solve_joint/pendulum", test_pendulum},
     {"solve_joint/momentum", test_momentum},

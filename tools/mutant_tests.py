@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The tests that judge mutants: the time of each, and the lines of src/ that it runs.
 
-They are the plays, each test of tests.elf by itself, and host programs. A build with the counters of `make coverage`
+They are the plays, each test of tests.elf by itself, host programs, and the suites of tests.elf with the sanitizers
+and the assertions. A build with the counters of `make coverage`
 tells once for each commit which lines a test runs: a change in any other line it cannot notice.
 """
 import collections
@@ -15,7 +16,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # host programs that judge the engine in seconds; the rest (soaks, fuzzers, oracles of many worlds) takes minutes
 PROGRAMS = ["host_head", "host_motion", "host_pools", "host_wake", "host_replay", "host_encounter", "host_roll", "host_bounce",
             "host_rest", "host_scenes", "host_sheet", "host_recall", "host_rules", "host_physics"]
-COUNTED = "build/host-covered/"
+COUNTED, DEBUG = "build/host-covered/", "host-debug/tests.elf"
 # without what debuggers want, so that objects that are the same code are the same bytes
 BUILD = ["make", "-s", "BOARD=host", "WARNINGS=-w -g0"]
 
@@ -29,7 +30,7 @@ class Test(collections.namedtuple("Test", "name seconds lines executable")):
 
     def command(self, folder="build/host/"):
         program, *select = self.name.split()
-        return ["stdbuf", "-oL", folder + program, *select]
+        return ["stdbuf", "-oL", (folder if program != DEBUG else "build/") + program, *select]
 
 
 def make(folder, *targets, check=False):
@@ -41,7 +42,9 @@ def links(folder, programs):
     """The commands that link programs: make would make the converter of the changed engine first, and all meshes with it."""
     said = subprocess.run([*BUILD, "-n", "-W", "build/host/libcarom.a", *("build/host/" + name for name in programs)], cwd=folder,
                           stdout=subprocess.PIPE, text=True, check=True).stdout
-    return dict(reversed(found) for found in re.findall(r"^(cc .* -o build/host/(\w+\.elf) .*)$", said, re.M))
+    said += subprocess.run([*BUILD, "-n", "DEBUG=1", "-W", "build/host-debug/libcarom.a", "build/" + DEBUG], cwd=folder,
+                           stdout=subprocess.PIPE, text=True, check=True).stdout
+    return dict(reversed(found) for found in re.findall(r"^(cc .* -o build/(?:host/)?(\S+\.elf) .*)$", said, re.M))
 
 
 def clone(number):
@@ -52,6 +55,7 @@ def clone(number):
     subprocess.run(["git", "fetch", "--quiet", "origin", "HEAD"], cwd=folder, check=True)
     subprocess.run(["git", "reset", "--quiet", "--hard", "FETCH_HEAD"], cwd=folder, check=True)
     make(folder, *("build/host/%s.elf" % name for name in ("tests", "matrix", *PROGRAMS)), check=True)
+    make(folder, "DEBUG=1", "build/" + DEBUG, check=True)
     return folder
 
 
@@ -89,7 +93,22 @@ def measured(folder):
         seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         ran, executable[test.program] = lines(folder, counts, test.program)
         rows.append([test.name, seconds, ran])
-    return [rows, executable]
+    return [[*rows, *checked(folder, rows)], executable]
+
+
+def checked(folder, rows):
+    """The rows of the suites with sanitizers: a suite runs what its tests run."""
+    suites = {}
+    for name, _, ran in rows:
+        if name.startswith("tests.elf "):
+            of_suite = suites.setdefault(name.split()[1].split("/")[0] + "/", {})
+            for path, numbers in ran.items():
+                of_suite.setdefault(path, set()).update(numbers)
+    for suite, of_suite in suites.items():
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        if subprocess.run(["build/" + DEBUG, suite], cwd=folder, stdout=subprocess.DEVNULL).returncode == 0:
+            seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+            yield [DEBUG + " " + suite, seconds, {path: sorted(numbers) for path, numbers in of_suite.items()}]
 
 
 def known(folder):
@@ -103,5 +122,5 @@ def known(folder):
     with open(kept) as file:
         rows, executable = json.load(file)
     sets = {program: {path: set(numbers) for path, numbers in files.items()} for program, files in executable.items()}
-    return [Test(name, seconds, {path: set(numbers) for path, numbers in ran.items()}, sets[name.split()[0]])
+    return [Test(name, seconds, {path: set(numbers) for path, numbers in ran.items()}, sets[os.path.basename(name.split()[0])])
             for name, seconds, ran in rows]

@@ -145,6 +145,9 @@ class Worker:
         os.utime(source, ns=(time_ns, time_ns))
         with open(compiled, "wb") as file:
             file.write(before)
+        checked = compiled.replace("/build/host/", "/build/host-debug/")
+        if os.path.exists(checked):
+            os.remove(checked)
 
     def passes(self, test):
         """True if a test succeeds in its time, no line is "not ok", and no play ends in another hash. The time is the
@@ -174,6 +177,8 @@ class Worker:
                 result = "open"
                 continue
             if test.program not in linked:
+                if test.program == mutant_tests.DEBUG:
+                    mutant_tests.make(self.folder, "DEBUG=1", "build/host-debug/libcarom.a", check=True)
                 subprocess.run(self.links[test.program], shell=True, cwd=self.folder, check=True)
                 linked.add(test.program)
             spent += test.seconds
