@@ -215,6 +215,11 @@ def code_of(mutant):
         return file.read().split("\n")[mutant.line - 1].strip()
 
 
+def judgement(mutant):
+    """A mutant as the list of those that were judged names it."""
+    return mutant.file, code_of(mutant), mutant.change, mutant.became[1]
+
+
 def key_of(mutant):
     """A mutant as the results name it."""
     return (mutant.file, *map(str, mutant[1:4]), mutant.became[1])
@@ -223,12 +228,15 @@ def key_of(mutant):
 def run(mutants, jobs, seconds, known):
     """Judge all mutants that are not known; the rows. Prints those that no test noticed."""
     caught, free, reasons, rows = Caught(), queue.Queue(), judged(), list(known.values())
-    for row in rows:
-        if row[5] == "caught":
+    for mutant in mutants:
+        row = known.get(key_of(mutant))
+        if row and row[5] == "caught":
             caught.add(row[0].split("/")[1], row[6])
-    for number in range(jobs):
+        elif row and row[5] in ("alive", "open") and judgement(mutant) in reasons:
+            row[5] = "judged"
+    asked, src = [mutant for mutant in mutants if key_of(mutant) not in known], source()
+    for number in range(min(jobs, len(asked))):
         free.put(Worker(number, caught))
-    src = source()
 
     def one(mutant):
         worker, start = free.get(), time.monotonic()
@@ -237,7 +245,7 @@ def run(mutants, jobs, seconds, known):
         finally:
             free.put(worker)
         if result in ("alive", "open"):
-            if (mutant.file, code_of(mutant), mutant.change, mutant.became[1]) in reasons:
+            if judgement(mutant) in reasons:
                 result = "judged"
             print("%s: %s:%s: %s at %s becomes %s: %s" % (result, *key_of(mutant), code_of(mutant)), flush=True)
         with caught.lock:
@@ -245,7 +253,8 @@ def run(mutants, jobs, seconds, known):
             write(rows)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(one, [mutant for mutant in mutants if key_of(mutant) not in known]))
+        list(pool.map(one, asked))
+    write(rows)
     return rows
 
 
@@ -268,7 +277,7 @@ def former(again):
     """The rows of former runs of the same src/, by mutant; without those that more tests may change, if they are asked again."""
     src = source()
     return {tuple(row.values())[:5]: list(row.values()) for row in results.read(OUT)
-            if row["src"] == src and not (again and row["result"] in ("alive", "open", "judged"))}
+            if row["src"] == src and not (again and row["result"] in ("alive", "open"))}
 
 
 def main():
@@ -295,8 +304,13 @@ def main():
     print("%d mutants: %s; %.1f %% of %d caught" % (len(rows), ", ".join("%d %s" % (n, what) for what, n in sorted(counts.items())),
                                                     share, asked))
     if arguments.record:
-        evidence.record("mutants", {"mutants that tests could notice": (asked, "fact"), "caught, %": (share, "more"),
-                                    "judged equal or of cost alone": (counts["judged"], "fact")})
+        evidence.record("mutants", {"mutants": (len(rows), "fact"),
+                                    "refused, or the same object": (counts["refused"] + counts["equal"], "fact"),
+                                    "judged equal or of cost alone": (counts["judged"], "fact"),
+                                    "that tests could notice": (asked, "fact"), "caught": (counts["caught"], "fact"),
+                                    "caught, %": (share, "more"),
+                                    "missed by all tests": (counts["alive"], "fact"),
+                                    "missed by those that were asked": (counts["open"], "fact")})
         return 0
     return not evidence.ratchet("mutants", {"caught, %": share}) if not arguments.most else counts["alive"] > 0
 
