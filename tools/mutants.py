@@ -92,7 +92,7 @@ def mutants_of(path):
 
 def chosen(count, part):
     """Mutants of all files, by their length."""
-    paths = [path for path in sorted(glob.glob("src/*/*.c", root_dir=ROOT)) if part in path]
+    paths = [path for path in sorted(glob.glob("src/*/*.c", root_dir=ROOT)) if any(one in path for one in part.split(","))]
     everything = {path: list(mutants_of(path)) for path in paths}
     total = sum(map(len, everything.values()))
     for path, mutants in everything.items():
@@ -225,8 +225,8 @@ def key_of(mutant):
     return (mutant.file, *map(str, mutant[1:4]), mutant.became[1])
 
 
-def run(mutants, jobs, seconds, known):
-    """Judge all mutants that are not known; the rows. Prints those that no test noticed."""
+def run(mutants, jobs, seconds, known, others):
+    """Judge all mutants that are not known; the rows. Prints those that no test noticed. `others` stay in the file."""
     caught, free, reasons, rows = Caught(), queue.Queue(), judged(), list(known.values())
     for mutant in mutants:
         row = known.get(key_of(mutant))
@@ -250,11 +250,11 @@ def run(mutants, jobs, seconds, known):
             print("%s: %s:%s: %s at %s becomes %s: %s" % (result, *key_of(mutant), code_of(mutant)), flush=True)
         with caught.lock:
             rows.append([*key_of(mutant), result, by, "%.0f" % (time.monotonic() - start), src])
-            write(rows)
+            write(rows + others)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         list(pool.map(one, asked))
-    write(rows)
+    write(rows + others)
     return rows
 
 
@@ -284,7 +284,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--most", type=int, help="of these, spread over all files")
-    parser.add_argument("--files", default="", help="a part of their paths")
+    parser.add_argument("--files", default="", help="parts of their paths, with commas")
     parser.add_argument("--seconds", type=float, help="that the tests of a mutant may take without it")
     parser.add_argument("--resume", action="store_true", help="keep the results of former runs of the same src/")
     parser.add_argument("--again", action="store_true", help="the same, but ask again for those that no test noticed")
@@ -297,7 +297,7 @@ def main():
     asked = set(map(key_of, mutants))
     kept = former(arguments.again) if arguments.resume or arguments.again else {}
     known = {key: row for key, row in kept.items() if key in asked}
-    rows = run(mutants, arguments.jobs, arguments.seconds, known)
+    rows = run(mutants, arguments.jobs, arguments.seconds, known, [row for key, row in kept.items() if key not in asked])
     counts = collections.Counter(row[5] for row in rows)
     asked = counts["caught"] + counts["alive"] + counts["open"]
     share = round(100 * counts["caught"] / max(asked, 1), 1)
