@@ -431,7 +431,7 @@ static void test_face_materials(void)
         CHECK_EQ(player.frames, FRAMES);
         CHECK_EQ(carom_world_hash(player.world), hash[with]);
     }
-    CHECK(hash[0] != hash[1]);
+    CHECK_DIFFER(hash[0], hash[1]);
 }
 
 /* The player's own arguments, and the names that it gives. */
