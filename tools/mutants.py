@@ -91,11 +91,13 @@ def mutants_of(path):
 
 
 def chosen(count, part):
-    """Mutants of all files, by their length."""
-    paths = [path for path in sorted(glob.glob("src/*/*.c", root_dir=ROOT)) if any(one in path for one in part.split(","))]
+    """Mutants by the length of their files; those of a part are the same ones as in the whole."""
+    paths = sorted(glob.glob("src/*/*.c", root_dir=ROOT))
     everything = {path: list(mutants_of(path)) for path in paths}
     total = sum(map(len, everything.values()))
     for path, mutants in everything.items():
+        if not any(one in path for one in part.split(",")):
+            continue
         share = min(len(mutants), max(1, round(count * len(mutants) / total)))
         yield from random.Random(path).sample(mutants, share)
 
