@@ -20,8 +20,9 @@ static const int16_t far_corners[][3] = {{-9999, -9999, 0}, {9999, -9999, 0}, {0
 static const int16_t raised[][3] = {{-9999, -9999, 3}, {9999, -9999, 3}, {0, 9999, 3}};
 static const struct carom_mesh_raw solid = {corners, sides, 4, 4, 8, CAROM_SOLID};
 static const struct carom_mesh_raw flat = {far_corners, sides, 3, 1, 8, CAROM_SURFACE};
-static const struct carom_material materials[2] = {{.friction_q16 = 1 << 14},
-                                                   {.friction_q16 = 1 << 15}};
+static const struct carom_material materials[2] = {
+    {.friction_q16 = 1 << 14, .surface_velocity = {{1 << 30, 1 << 29, 0}}},
+    {.friction_q16 = 1 << 15, .surface_velocity = {{0, 1 << 30, 1 << 29}}}};
 static const uint8_t of_face[4] = {0, 1, 0, 1};
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], ground_block[CAROM_SURFACE_BYTES(3, 1)],

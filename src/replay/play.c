@@ -20,31 +20,45 @@ static void differ(struct carom_replay *p, int difference, int64_t wanted, int64
 
 /* ----------------------------------------------------------------------- contacts */
 
+/* An answer of the program: to which question since the last one, and what it was. */
+struct answer {
+    int64_t asked, e_q30, mu_q16;
+    bool keep;
+};
+
+/* Read the answer that the file has next. Returns the bytes that it takes; 0 if the file ends in it. */
+static size_t read_answer(const struct carom_replay *p, struct answer *answer)
+{
+    struct replay_coder c = play_rest(p);
+
+    c.at = 1;
+    answer->asked = replay_number(&c, 0, 1, UINT32_MAX);
+    answer->keep = replay_fixed(&c, 0, 1) != 0;
+    answer->e_q30 = replay_number(&c, 0, INT32_MIN, INT32_MAX);
+    answer->mu_q16 = replay_number(&c, 0, 0, UINT32_MAX);
+    return c.bad ? 0 : c.at;
+}
+
 /* Answer as the program did, if the next bytes of the file are about this question. */
 static bool answer_as_recorded(void *user, struct carom_touch *touch)
 {
     struct carom_replay *p = (struct carom_replay *)user;
-    struct replay_coder c = play_rest(p);
-    int64_t asked, e_q30, mu_q16;
-    bool keep;
+    struct answer answer;
+    size_t bytes;
 
     p->asked++;
     if (!next_is(p, REPLAY_TOKEN_ANSWER)) {
         return true;
     }
-    c.at = 1;
-    asked = replay_number(&c, 0, 1, UINT32_MAX);
-    keep = replay_fixed(&c, 0, 1) != 0;
-    e_q30 = replay_number(&c, 0, INT32_MIN, INT32_MAX);
-    mu_q16 = replay_number(&c, 0, 0, UINT32_MAX);
-    if (c.bad || (uint32_t)asked != p->asked) {
+    bytes = read_answer(p, &answer);
+    if (bytes == 0 || (uint32_t)answer.asked != p->asked) {
         return true;
     }
-    p->at += c.at;
+    p->at += bytes;
     p->asked = 0;
-    touch->restitution_q30 = (int32_t)e_q30;
-    touch->friction_q16 = (uint32_t)mu_q16;
-    return keep;
+    touch->restitution_q30 = (int32_t)answer.e_q30;
+    touch->friction_q16 = (uint32_t)answer.mu_q16;
+    return answer.keep;
 }
 
 /* -------------------------------------------------------------------------- calls */
@@ -98,6 +112,11 @@ static int compare_result(struct carom_replay *p, int result)
     int64_t wanted = 0;
 
     if (next_is(p, REPLAY_TOKEN_ANSWER)) {
+        struct answer answer;
+
+        if (read_answer(p, &answer) == 0) {
+            return CAROM_REPLAY_CUT; /* the program ended in this step */
+        }
         differ(p, CAROM_REPLAY_IN_ANSWER, 0, p->asked);
         return CAROM_REPLAY_DIFFERS;
     }
