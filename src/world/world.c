@@ -268,6 +268,20 @@ static int make_at(struct carom_world *w, uint32_t place, struct body_state *sta
     return world_settle(w, b, place, state, def->overlap);
 }
 
+/* The error of a body for which there is no place: its definition's own, if it has one. */
+static FIX_OWN_FRAME int refuse(struct pool *pool, const struct carom_body_def *def)
+{
+    struct body made;
+    struct body_state state;
+    int result = make_body(&made, &state, def);
+
+    if (result < 0) {
+        return result;
+    }
+    (void)pool_take(pool); /* which counts it */
+    return CAROM_ERR_BODIES_FULL;
+}
+
 int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
 {
     struct pool *pool;
@@ -284,8 +298,7 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     }
     pool = &w->pools[CAROM_POOL_bodies];
     if (pool->used == pool->size) {
-        pool->refused++;
-        return CAROM_ERR_BODIES_FULL;
+        return refuse(pool, def);
     }
     place = free_place(w);
     b = &w->bodies[place];
