@@ -196,7 +196,7 @@ static void check_axes(const carom_m3_q30 *found, double wanted[3][3])
     }
 }
 
-/* What a sweep says of a way between two places of it; `bends` is the length of its t^2 term. */
+/* The way between two places, as a sweep says it; `bends` is the length of its t^2 term. */
 static void check_sweep(const struct body_sweep *sweep, struct place (*place)(double), double from,
                         double to, double bends)
 {

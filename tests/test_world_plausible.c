@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a snapshot may hold, number by number: each value that no step could have left is refused, and the value that was
+ * The numbers of a snapshot, one by one: each value that no step could have left is refused, and the value that was
  * there is taken. test_world_load changes bytes by chance; here each rule of world_plausible and of the parts that it
  * shares with calls is broken alone.
  */

@@ -151,8 +151,8 @@ bool boyse_static(struct boyse_pair *pair, const struct candidate *c, int32_t de
  *   hit     out  both times; candidate and touch are left to the caller
  *   roots   in/out  counts the candidates that came to the exact test
  *
- * Units    t in slices, q30, rounded down so that the surfaces do not cross at it Returns  true if
- * there is a hit Source   paper section 2, figures 2 and 3; Boyse's cases (i) and (ii)
+ * Times are of the slice, q30, rounded down so that the surfaces do not cross at them. Returns true
+ * if there is a hit. The paper has this in section 2, figures 2 and 3; Boyse's cases (i) and (ii).
  */
 bool boyse_first(struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
                  uint32_t *roots);

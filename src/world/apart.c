@@ -52,12 +52,8 @@ static bool moved(const struct body_state *from, const carom_v3_q30 *way, int64_
 /* True if two bodies pass each other already, or their joint lets them ignore each other. */
 static bool already_pass(const struct carom_world *w, uint32_t place, uint32_t other)
 {
-    struct pair p;
+    const struct pair p = world_name_pair(w, place, other);
 
-    if (place == UINT32_MAX) {
-        return false;
-    }
-    p = world_name_pair(w, place, other);
     return world_ignores(w, p.a, p.b) || world_goes_through(w, world_now(w), &p);
 }
 

@@ -6,7 +6,8 @@
  * reads; state, events and statistics of the last step; snapshots and hashes.
  *
  * Files:
- *   world.c      the block carved; add, remove, get and set bodies
+ *   world.c      the block carved
+ *   bodies.c     add, remove, get and set bodies
  *   range.c      are numbers within what the formats hold
  *   identity.c   numbers and ids; frame.c: points of a body in world axes
  *   force.c      gravity, forces, pushes; material.c: e, mu, mass; filter.c: who may touch
@@ -301,7 +302,7 @@ void world_drop_through(const struct carom_world *w, struct world_state *s, uint
 bool world_overlap(struct carom_world *w, struct interfere_placed a, struct interfere_placed b);
 
 /*
- * Before a body gets a state (`place` is its number, or UINT32_MAX): if it would cross bodies that
+ * Before body `place` gets a state: if it would cross bodies that
  * it may touch, by more than about a skin, refuse with CAROM_ERR_OVERLAP, or push it out, or check
  * that there is room for the pairs that will pass.
  */
