@@ -190,7 +190,7 @@ ifneq ($(ASKED),)
 test: need
 	@$(SUBMAKE) BOARD=host build
 	@$(SUBMAKE) BOARD=$(BOARD) build $(TEST_IMAGES)
-	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --boards '$(BOARD)' $(TEST_IMAGES)
+	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --seconds 1800 --boards '$(BOARD)' $(TEST_IMAGES)
 else
 test: ## run every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= part of a name
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil npm chromium \

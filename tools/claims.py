@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""What README.md, docs/limits.md and SPEC.md say with figures of other files: tools/claims.py [--write]
+"""The lines of README.md, docs/limits.md and SPEC.md that quote figures of other files: tools/claims.py [--write]
 
 A command that writes a page of figures writes these lines, too. Without --write they are compared.
 """

@@ -24,7 +24,7 @@ import time
 
 import run_board
 
-SECONDS = 1800  # a program that takes longer hangs; an emulator that models cycles is slow on a busy machine
+SECONDS = 480  # a program that takes longer hangs; it shares the machine with another program
 
 
 def stem(path):
@@ -67,12 +67,12 @@ class Counts:
             self.left_out += left_out
 
 
-def run(path, select, counts):
+def run(path, select, counts, seconds):
     """Run one file."""
     began = time.monotonic()
     process = subprocess.Popen(command(path, select), stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, text=True, errors="replace")
-    clock = threading.Timer(SECONDS, process.kill)
+    clock = threading.Timer(seconds, process.kill)
     clock.start()
     said = process.stdout.read()
     status = process.wait()
@@ -86,16 +86,16 @@ def run(path, select, counts):
     counts.add("# %s\n%s# %s: %.0f s\n" % (path, said, path, time.monotonic() - began), passed, failed, left_out)
 
 
-def scene_ends(board, scene, frames):
+def scene_ends(board, scene, frames, seconds):
     """The state in which a scene ends on a board, or the failure."""
     image = os.path.join(run_board.ROOT, "build", board, "head.elf")
-    result = run_board.run(image, ["scene=" + scene, "frames=%d" % frames], SECONDS)
+    result = run_board.run(image, ["scene=" + scene, "frames=%d" % frames], seconds)
     if result.status or len(result.rows) != frames:
         return "status %d after %d frames" % (result.status, len(result.rows))
     return result.said.get("hash", "no state")
 
 
-def run_scenes(boards, first, frames, select, counts):
+def run_scenes(boards, first, frames, select, counts, seconds):
     """Compare boards with the host, scene by scene."""
     expected, number = {}, 0
     counts.add("# scenes on boards, against the host\n", 0, 0)
@@ -105,8 +105,8 @@ def run_scenes(boards, first, frames, select, counts):
             if select not in name or board == "host":
                 continue
             if scene not in expected:
-                expected[scene] = scene_ends("host", scene, frames)
-            found = scene_ends(board, scene, frames)
+                expected[scene] = scene_ends("host", scene, frames, seconds)
+            found = scene_ends(board, scene, frames, seconds)
             ok = found == expected[scene] and bool(re.fullmatch("[0-9a-f]{16}", found))
             number += 1
             counts.add("%s %d - %s %s (%d frames)%s\n" % (
@@ -120,6 +120,7 @@ def main():
     parser.add_argument("--boards", default="", help="names, with spaces")
     parser.add_argument("--frames", type=int, default=600)
     parser.add_argument("--first", action="store_true")
+    parser.add_argument("--seconds", type=int, default=SECONDS, help="that a program may take")
     parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()
     counts = Counts()
@@ -132,15 +133,15 @@ def main():
                 path = programs.pop()
             except IndexError:
                 return
-            run(path, arguments.select, counts)
+            run(path, arguments.select, counts, arguments.seconds)
 
     with concurrent.futures.ThreadPoolExecutor(1) as pool:
         other = pool.submit(run_programs)
         if arguments.boards:
-            run_scenes(arguments.boards.split(), arguments.first, arguments.frames, arguments.select, counts)
+            run_scenes(arguments.boards.split(), arguments.first, arguments.frames, arguments.select, counts, arguments.seconds)
         for path in arguments.files:
             if not path.endswith(".elf") and wanted(path, arguments.select):
-                run(path, arguments.select, counts)
+                run(path, arguments.select, counts, arguments.seconds)
         run_programs()
         other.result()
     if counts.left_out:
