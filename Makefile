@@ -551,7 +551,8 @@ FAULTS_WRAP := body_add body_set body_set_filter surface_move world_step snapsho
 $(B)/host_faults.elf: private LDFLAGS += $(FAULTS_WRAP:%=-Wl,--wrap=carom_%)
 
 # It makes calls within a step fail.
-ERRORS_WRAP := pool_take impact_solve interfere_visit_pair interfere_note_faces contact_add contact_force
+ERRORS_WRAP := pool_take step_note_touching world_note_through world_part_joint step_set_region step_cut step_rejoin \
+    impact_solve interfere_visit_pair interfere_note_faces contact_add contact_force
 $(B)/host_errors.elf: private LDFLAGS += $(ERRORS_WRAP:%=-Wl,--wrap=%)
 
 $(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
