@@ -43,7 +43,7 @@ int64_t replay_number(struct replay_coder *c, int64_t value, int64_t low, int64_
     value = unfold_sign(read);
     if (c->bad || value < low || value > high) {
         c->bad = true;
-        return low <= 0 && high >= 0 ? 0 : low;
+        return low <= 0 ? 0 : low; /* no range lies below 0 */
     }
     return value;
 }

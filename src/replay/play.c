@@ -175,7 +175,8 @@ static int perform_again(struct carom_replay *p, uint8_t slot)
     }
     replay_follow(&p->memory, slot);
     replay_code(&c, &call);
-    return c.bad ? CAROM_ERR_FORMAT : perform(p, &call);
+    CAROM_ASSERT(!c.bad); /* these bytes were read before */
+    return perform(p, &call);
 }
 
 /* Play a call that is written in full. */
@@ -204,7 +205,7 @@ static int perform_new(struct carom_replay *p, uint8_t op)
 /* Check that the end fits the file. */
 static int end(struct carom_replay *p)
 {
-    const uint32_t sum = replay_sum(FNV32_START, p->file, p->bytes >= 4 ? p->bytes - 4 : 0);
+    const uint32_t sum = replay_sum(FNV32_START, p->file, p->bytes - 4); /* the header is longer */
     struct replay_coder c = play_rest(p);
     const uint64_t frames = replay_fixed(&c, 0, 4), hash = replay_fixed(&c, 0, 8);
     const uint64_t wanted = replay_fixed(&c, 0, 4);

@@ -235,8 +235,8 @@ static bool ask_program(void *user, struct carom_touch *touch)
     const bool keep = r->contact(r->contact_user, touch);
 
     r->asked++;
-    if (r->write && (!keep || was.restitution_q30 != touch->restitution_q30 ||
-                     was.friction_q16 != touch->friction_q16)) {
+    if (!keep || was.restitution_q30 != touch->restitution_q30 ||
+        was.friction_q16 != touch->friction_q16) {
         record_token(r, REPLAY_TOKEN_ANSWER);
         put_number(r, r->asked);
         put_fixed(r, keep, 1);
