@@ -144,8 +144,9 @@ static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t numb
     if (same) {
         now.all = before->all;
     } else if (now.look.mesh) {
-        now.all = drawn->shows || now.look.moving ? find_all(c, number, &now.look)
-                                                  : draw_on_picture(&c->view, c->view.rect);
+        const bool known = drawn->shows || now.look.moving;
+
+        now.all = known ? find_all(c, number, &now.look) : draw_on_picture(&c->view, c->view.rect);
     }
     if (drawn->shows) {
         add_rect(drawn, same ? before->hot : before->all);

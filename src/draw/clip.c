@@ -62,19 +62,14 @@ int draw_cut(int32_t polygon[DRAW_CLIP_MAX][3], const int64_t inside[DRAW_CLIP_M
     return m;
 }
 
-/* Clamp first: rounding may have left the corner a hair outside. */
-struct draw_vertex draw_clipped_vertex(const struct draw_body *body, int32_t at[3])
+/*
+ * Rounding leaves no corner outside: the fraction of cross_plane is rounded down, so the exact point
+ * is inside its plane, as it is inside those before, being between two corners. The planes have
+ * whole-numbered normals, a + b >= 0 and a >= b; both stay true when a and b are rounded.
+ */
+struct draw_vertex draw_clipped_vertex(const struct draw_body *body, const int32_t at[3])
 {
-    if (at[2] < body->near) {
-        at[2] = body->near;
-    }
-    for (int k = 0; k < 2; k++) {
-        if (at[k] > at[2]) {
-            at[k] = at[2];
-        } else if (at[k] < -at[2]) {
-            at[k] = -at[2];
-        }
-    }
+    CAROM_ASSERT(at[2] >= body->near && carom_abs(at[0]) <= at[2] && carom_abs(at[1]) <= at[2]);
     return draw_project(body, at);
 }
 

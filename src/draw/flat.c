@@ -10,8 +10,6 @@
 #define LEAF_ROOM                                                                                  \
     (LEAF_FACES * sizeof(struct draw_face) + LEAF_VERTICES * sizeof(struct draw_vertex))
 
-#define LINE_ROOM (2 * sizeof(struct draw_face) + 4 * sizeof(struct draw_vertex))
-
 /* State of a pass over the world. */
 struct flat {
     const struct draw_source *source;
@@ -171,6 +169,19 @@ static void begin_shades(struct flat *f)
     }
 }
 
+/*
+ * True if there is room for the most that a leaf may list. With smooth shades each face may have a
+ * tint, which takes a face's room.
+ */
+static bool has_room(const struct flat *f)
+{
+    size_t tints = f->shade_room ? LEAF_FACES : 0;
+
+    return list_room(&f->list) >= LEAF_ROOM + tints * sizeof(struct draw_face) + DRAW_ROWS_ROOM &&
+           f->list.vertex_count + LEAF_VERTICES <= LIST_VERTICES_MAX &&
+           f->list.face_count + LEAF_FACES + tints <= LIST_FACES_MAX;
+}
+
 /* List the paint's lines. Returns false if there is not room for all. */
 static bool see_lines(struct flat *f)
 {
@@ -184,8 +195,7 @@ static bool see_lines(struct flat *f)
         if (!draw_segment(f->view, &line->from, &line->to, ends)) {
             continue;
         }
-        if (list_room(&f->list) < LINE_ROOM || at + 4 > LIST_VERTICES_MAX ||
-            f->list.face_count + 2 > LIST_FACES_MAX) {
+        if (!has_room(f)) { /* for much more than a line, which leaves some for the row */
             return false;
         }
         draw_ribbon(ends, corner);
@@ -196,19 +206,6 @@ static bool see_lines(struct flat *f)
         list_face(&f->view->rect, &f->list, at, at + 2, at + 3, line->colour, false);
     }
     return true;
-}
-
-/*
- * True if there is room for the most that a leaf may list. With smooth shades each face may have a
- * tint, which takes a face's room.
- */
-static bool has_room(const struct flat *f)
-{
-    size_t tints = f->shade_room ? LEAF_FACES : 0;
-
-    return list_room(&f->list) >= LEAF_ROOM + tints * sizeof(struct draw_face) &&
-           f->list.vertex_count + LEAF_VERTICES <= LIST_VERTICES_MAX &&
-           f->list.face_count + LEAF_FACES + tints <= LIST_FACES_MAX;
 }
 
 /* List what shows in the part. Returns false if there is not room for all. */

@@ -205,8 +205,8 @@ static bool sweep(struct draw_outline *o, uint32_t most)
 
 /* ------------------------------------------------------------------- outline */
 
-/* Find two directions across the light. Returns false if `sun` is 0. */
-static bool find_across(struct draw_outline *o, const int32_t sun[3])
+/* Find two directions across the light. */
+static void find_across(struct draw_outline *o, const int32_t sun[3])
 {
     int64_t v[3] = {0, 0, 0};
     int flat = carom_abs(sun[0]) >
@@ -214,15 +214,13 @@ static bool find_across(struct draw_outline *o, const int32_t sun[3])
 
     v[flat ? 0 : 1] = -(int64_t)sun[2];
     v[2] = sun[flat ? 0 : 1];
-    if (!fix_normalise(&o->across[0], v)) {
-        return false;
-    }
+    fix_normalise(&o->across[0], v);
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
 
         v[k] = (int64_t)sun[i] * o->across[0].c[j] - (int64_t)sun[j] * o->across[0].c[i];
     }
-    return fix_normalise(&o->across[1], v);
+    fix_normalise(&o->across[1], v);
 }
 
 /* numbers of trapezoids, three for each edge, have 16 bits */
@@ -244,8 +242,8 @@ bool draw_outline_find(struct draw_outline *o, const struct draw_body *body, con
     o->trapezoids = (struct draw_trapezoid *)(void *)(o->edges + most);
     o->active = (uint16_t *)(void *)(o->trapezoids + 3 * most);
     o->edge_count = o->trapezoid_count = 0;
-    return find_across(o, sun) && find_edges(o, body, (uint32_t)most) &&
-           sweep(o, 3 * (uint32_t)most);
+    find_across(o, sun);
+    return find_edges(o, body, (uint32_t)most) && sweep(o, 3 * (uint32_t)most);
 }
 
 void draw_outline_across(const struct draw_outline *o, const int32_t at[3], int32_t pq[2])

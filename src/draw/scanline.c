@@ -195,8 +195,9 @@ static void fill_row_any(struct draw_sweep *s, struct draw_span *const *spans, i
 static void make_room(struct rows *r, struct draw_span *low)
 {
     size_t each = sizeof(struct draw_span) + 2 * sizeof(struct draw_span *);
-    size_t room = r->list->room, n = (room - 4 * sizeof(struct draw_span *)) / each;
+    size_t room = r->list->room, n = (room - DRAW_ROWS_ROOM) / each;
 
+    CAROM_ASSERT(room >= DRAW_ROWS_ROOM);
     r->free = NULL;
     r->unused = low;
     r->unused_end = low + n;

@@ -57,6 +57,9 @@ struct draw_list {
     size_t room;                       /* bytes between both */
 };
 
+/* Room that rows need beside their spans: the ends of two lists of spans. */
+#define DRAW_ROWS_ROOM (4 * sizeof(void *))
+
 /*
  * Draw the part. Returns false if the room is too small for one of its rows; with `must` draws what
  * fits.

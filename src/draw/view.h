@@ -221,8 +221,8 @@ int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
 int draw_clip_placed(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
                      struct draw_vertex out[DRAW_CLIP_MAX]);
 
-/* Project a corner that clipping made, clamped to the guard band and near plane. */
-struct draw_vertex draw_clipped_vertex(const struct draw_body *body, int32_t at[3]);
+/* Project a corner that clipping made. */
+struct draw_vertex draw_clipped_vertex(const struct draw_body *body, const int32_t at[3]);
 
 /*
  * A step of Sutherland and Hodgman: cut a convex polygon at one plane.
