@@ -97,7 +97,8 @@ def ask(facts, condition, path, seconds):
     import z3
     goal = z3.Solver()
     goal.add(*facts.known, condition)
-    text = goal.to_smt2()
+    # z3's own names of quotients whose denominator cannot be 0
+    text = re.sub(r"\b(bv[us](?:div|rem|mod))_i\b", r"\1", goal.to_smt2())
     names = [str(v.term) for v in facts.inputs]
     with open(path, "w") as file:
         file.write("(set-logic QF_BV)\n(set-option :produce-models true)\n" + text)
