@@ -10,7 +10,7 @@
 #include "lib/shapes.h"
 
 #ifdef TEST_LONG
-enum { FRAMES = 600 };
+enum { FRAMES = 240 };
 #else
 enum { FRAMES = 24 };
 #endif

@@ -2,33 +2,39 @@
 /*
  * Normalising: each row is shifted up until its largest entry has 30 or 31 bits, its right-hand side with it; a row of zeros is refused.
  *
- * bound: 2 x 2 systems with all entries up to 2^30; rows are treated one by one
+ * bound: 2 x 2 systems with all entries up to 2^30; rows do not meet, so a case is one row, by the bits of its larger entry, beside 2^30 0 0
+ * cases: 0..63
  * unwind: 32
  * mutant: src/num/gauss.c: #define NORMAL         ((int32_t)1 << 29) -> #define NORMAL         ((int32_t)1 << 30)
+ * mutant: src/num/gauss.c: carom_shl(g->a[i][n], z) -> carom_shl(g->a[i][n], z + 1)
  */
 #include "proof.h"
 #include "num/gauss.c"
 
+enum { ROW = CASE / 32, BITS = CASE % 32 };
+
 void proof(void)
 {
+    const int32_t most = BITS < 31 ? (int32_t)(((uint32_t)1 << BITS) - 1) : CAROM_ONE_Q30;
+    const int32_t a = (int32_t)proof_range(-most, most), b = (int32_t)proof_range(-most, most),
+                  right = (int32_t)proof_range(-CAROM_ONE_Q30, CAROM_ONE_Q30);
+    const uint32_t either = (uint32_t)fix_abs32(a) | (uint32_t)fix_abs32(b);
     struct gauss g;
-    int32_t in[2][3];
 
-    for (int i = 0; i < 2; i++) {
-        for (int j = 0; j < 3; j++) {
-            in[i][j] = g.a[i][j] = (int32_t)proof_range(-CAROM_ONE_Q30, CAROM_ONE_Q30);
-        }
-    }
+    proof_assume(BITS == 0 || either >> (BITS - 1) == 1);
+    g.a[1 - ROW][0] = CAROM_ONE_Q30;
+    g.a[1 - ROW][1] = g.a[1 - ROW][2] = 0;
+    g.a[ROW][0] = a;
+    g.a[ROW][1] = b;
+    g.a[ROW][2] = right;
     if (normalise_rows(&g, 2) < 0) {
-        proof_check((in[0][0] == 0 && in[0][1] == 0) || (in[1][0] == 0 && in[1][1] == 0));
+        proof_check(BITS == 0);
         return;
     }
-    for (int i = 0; i < 2; i++) {
-        proof_check(g.up[i] <= 29 && g.residual[i] == in[i][2] * ((int64_t)1 << g.up[i]));
-        for (int j = 0; j < 2; j++) {
-            proof_check(g.a[i][j] == in[i][j] * ((int64_t)1 << g.up[i]) &&
-                        fix_abs32(g.a[i][j]) <= CAROM_ONE_Q30);
-        }
-        proof_check((fix_abs32(g.a[i][0]) | fix_abs32(g.a[i][1])) >= 1 << 29);
-    }
+    proof_check(BITS > 0 && g.up[ROW] <= 29 && g.up[ROW] == (BITS < 30 ? 30 - BITS : 0));
+    proof_check(g.a[ROW][0] == a * ((int64_t)1 << g.up[ROW]));
+    proof_check(g.a[ROW][1] == b * ((int64_t)1 << g.up[ROW]));
+    proof_check(g.residual[ROW] == right * ((int64_t)1 << g.up[ROW]));
+    proof_check(g.a[1 - ROW][0] == CAROM_ONE_Q30 && g.a[1 - ROW][1] == 0 &&
+                g.residual[1 - ROW] == 0);
 }
