@@ -469,6 +469,18 @@ static void test_invert_exact(void)
     CHECK_EQ(mass_invert(&line, &b, &rest), -1);
     line.m[2] = 64;
     CHECK_EQ(mass_invert(&line, &b, &rest), 0);
+    /* positive determinants of no inertia: two of their moments are below 0 */
+    for (int k = 0; k < 3; k++) {
+        struct carom_sym3 two = {{-(1 << 29), -(1 << 29), -(1 << 29), 0, 0, 0}, 30};
+        struct carom_sym3 turned = {{-(1 << 27), -(1 << 27), -(1 << 27), 0, 0, 0}, 30};
+
+        two.m[k] = 1 << 29;
+        CHECK_EQ(mass_invert(&two, &b, &rest), -1);
+        /* moments 1, -3 and -3 in 2^27: only the cofactor of axis k is below 0 */
+        turned.m[k] *= 3;
+        turned.m[3 + (k + 1) % 3] = 1 << 28;
+        CHECK_EQ(mass_invert(&turned, &b, &rest), -1);
+    }
 }
 
 const struct test tests_mesh_mass[] = {

@@ -312,6 +312,16 @@ static void test_drift(void)
             CHECK_EQ(by_vertex.c[k],
                      (int64_t)(moved[corner[0]][k] - flat.vertices[corner[0]][k]) * (1 << 30));
         }
+        for (int e = 0; e < 2; e++) { /* beyond an end an edge moves as that end does */
+            for (int k = 0; k < 3; k++) {
+                on_edge.c[k] = 4096 * (2 * moved[end[e]][k] - moved[end[1 - e]][k]);
+            }
+            mesh_drift_edge(&mesh, edge, &on_edge, &by_edge);
+            mesh_drift_vertex(&mesh, end[e], &by_vertex);
+            for (int k = 0; k < 3; k++) {
+                CHECK_NEAR(by_edge.c[k], by_vertex.c[k], 1 << 8);
+            }
+        }
     }
     mesh_surface_halt(mesh.surface);
     CHECK_EQ(mesh_drift_most(&mesh), 0);

@@ -226,8 +226,54 @@ static void test_full(void)
     boxes_step(w, 1);
 }
 
-const struct test tests_world_overlap[] = {
-    {"world_overlap/depth", test_depth},     {"world_overlap/who", test_who},
-    {"world_overlap/set", test_set},         {"world_overlap/push", test_push},
-    {"world_overlap/blocked", test_blocked}, {"world_overlap/pass", test_pass},
-    {"world_overlap/full", test_full},       {0}};
+/* At the edge of the world the shortest way out may leave it: then the shortest one that stays inside counts. */
+static void test_edge(void)
+{
+    const int most = 4096 * 1024, side = 512,
+              aside = 600; /* of 1024, the cubes' sides; half of one */
+
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (int inside = 0; inside < 2; inside++) {
+            const int x = sign * (most - 8 * 1024 * inside);
+            struct carom_body_def def;
+            struct carom_body_state s;
+            struct carom_world *w;
+
+            boxes_begin();
+            boxes_make(0, side, side, side);
+            boxes_config.gravity = (carom_v3_q40){{0}};
+            w = boxes_world(0);
+            def = boxes_def(0, x - sign * aside, 0, 0);
+            def.stationary = true;
+            CHECK_EQ(boxes_add(w, &def), 0);
+            def = boxes_def(0, x, 0, 0);
+            def.overlap = CAROM_OVERLAP_PUSH_OUT;
+            CHECK_EQ(boxes_add(w, &def), 1);
+            s = boxes_state(w, 1);
+            CHECK(!boxes_overlap(w, 0, 1));
+            CHECK_AT_MOST(sign * s.position.c[0], BOXES_Q32(most));
+            if (inside) { /* 424 outward */
+                CHECK_NEAR(sign * (s.position.c[0] - BOXES_Q32(x)), BOXES_Q32(2 * side - aside),
+                           BOXES_Q32(8));
+                CHECK_EQ(s.position.c[1] | s.position.c[2], 0);
+            } else { /* 1024 along another axis */
+                const int64_t y = s.position.c[1] < 0 ? -s.position.c[1] : s.position.c[1];
+                const int64_t z = s.position.c[2] < 0 ? -s.position.c[2] : s.position.c[2];
+
+                CHECK_EQ(s.position.c[0], BOXES_Q32(x));
+                CHECK_NEAR(y + z, BOXES_Q32(2 * side), BOXES_Q32(8));
+                CHECK(y == 0 || z == 0);
+            }
+        }
+    }
+}
+
+const struct test tests_world_overlap[] = {{"world_overlap/depth", test_depth},
+                                           {"world_overlap/who", test_who},
+                                           {"world_overlap/set", test_set},
+                                           {"world_overlap/push", test_push},
+                                           {"world_overlap/blocked", test_blocked},
+                                           {"world_overlap/pass", test_pass},
+                                           {"world_overlap/full", test_full},
+                                           {"world_overlap/edge", test_edge},
+                                           {0}};

@@ -70,9 +70,7 @@ static bool add_face(struct leaf_builder *l, struct carom_leaf *leaf, const uint
     uint32_t place = leaf->first_face + leaf->face_count;
     int count = leaf->vertex_count;
 
-    if (leaf->face_count == CAROM_LEAF_FACES) {
-        return false;
-    }
+    CAROM_ASSERT(leaf->face_count < CAROM_LEAF_FACES); /* no more are handed over */
     for (int k = 0; k < 3; k++) {
         int i = 0;
 

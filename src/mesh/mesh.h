@@ -148,22 +148,20 @@ static inline carom_v3_q22 mesh_corner(const struct carom_mesh *mesh, uint32_t f
 
 /*
  * The unit vector in the plane of one of an edge's two faces that is square to the edge and points
- * into the face. Zero for the missing face of a border.
+ * into the face, which must be there.
  */
 static inline carom_v3_q30 mesh_edge_inward(const struct carom_mesh *mesh,
                                             const struct carom_edge *edge, int side)
 {
-    carom_v3_q30 in = {{0, 0, 0}};
+    const int32_t *n = mesh->faces[edge->face[side]].normal.c;
+    carom_v3_q30 in;
 
-    if (edge->face[side] != CAROM_NO_FACE) {
-        const int32_t *n = mesh->faces[edge->face[side]].normal.c;
-
-        /* face 0 runs along the edge, face 1 against it */
-        if (side == 0) {
-            carom_cross(in.c, n, edge->direction.c, 30);
-        } else {
-            carom_cross(in.c, edge->direction.c, n, 30);
-        }
+    CAROM_ASSERT(edge->face[side] != CAROM_NO_FACE);
+    /* face 0 runs along the edge, face 1 against it */
+    if (side == 0) {
+        carom_cross(in.c, n, edge->direction.c, 30);
+    } else {
+        carom_cross(in.c, edge->direction.c, n, 30);
     }
     return in;
 }

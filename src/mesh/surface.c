@@ -252,9 +252,10 @@ void mesh_drift_face(const struct carom_mesh *mesh, uint32_t face, const carom_v
         part[k] = part[k] < 0 ? 0 : part[k];
         whole += part[k];
     }
-    /* not 0: the face has an area, and at least that of the part inside */
-    weight[1] = share_q30(part[1], whole > 0 ? whole : 1);
-    weight[2] = share_q30(part[2], whole > 0 ? whole : 1);
+    /* all three parts, signed, add up to the area of the face, which looks up */
+    CAROM_ASSERT(whole > 0);
+    weight[1] = share_q30(part[1], whole);
+    weight[2] = share_q30(part[2], whole);
     weight[0] = CAROM_ONE_Q30 - weight[1] - weight[2];
     mean_drift(mesh, corner, weight, 3, out);
 }

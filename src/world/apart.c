@@ -137,10 +137,11 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
     for (int i = 0; i < WORLD_HALVINGS; i++) {
         int64_t middle_q32 = (inside_q32 + out_q32) / 2;
 
-        if (moved(state, way, middle_q32, &at) && !crosses_any(w, b, place, &at)) {
-            out_q32 = middle_q32;
-        } else {
+        (void)moved(state, way, middle_q32, &at); /* in range: it lies between two that are */
+        if (crosses_any(w, b, place, &at)) {
             inside_q32 = middle_q32;
+        } else {
+            out_q32 = middle_q32;
         }
     }
     return out_q32;
@@ -152,16 +153,16 @@ static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
 {
     const int64_t most_q32 = ((int64_t)WORLD_WAY_MAX << 32) + ((int64_t)b->def.radius_q22 << 11);
     int64_t best_q32 = most_q32;
-    struct body_state at, best = *state;
+    struct body_state best = *state;
     carom_v3_q30 to;
 
     for (int way = 0; way < WAYS; way++) {
         if (direction(w, way, &to)) {
             int64_t out_q32 = way_out_q32(w, b, place, state, &to, best_q32);
 
-            if (out_q32 < best_q32 && moved(state, &to, out_q32, &at)) {
+            if (out_q32 < best_q32) {
+                (void)moved(state, &to, out_q32, &best); /* in range, as way_out_q32 has seen */
                 best_q32 = out_q32;
-                best = at;
             }
         }
     }

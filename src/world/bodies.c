@@ -20,6 +20,7 @@ int world_set_mass(struct body *b, uint32_t mass_q20)
 /* Make a body and its state from its definition. */
 static int make_body(struct body *b, struct body_state *s, const struct carom_body_def *def)
 {
+    const bool odd = def->stationary ? def->kinematic : def->mesh->raw.kind != CAROM_SOLID;
     int result = CAROM_OK;
 
     memset(b, 0, sizeof *b);
@@ -27,10 +28,8 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
     s->position = def->position;
     s->rotation = def->rotation;
     if (def->restitution_q30 < 0 || def->restitution_q30 > CAROM_ONE_Q30 ||
-        def->friction_q16 > CAROM_MU_MAX_Q16 || !world_rotation_valid(&s->rotation) ||
-        (!def->stationary && def->mesh->raw.kind != CAROM_SOLID) ||
-        def->one_way > CAROM_ONE_WAY_MINUS_Z || def->overlap > CAROM_OVERLAP_PASS ||
-        (def->stationary && def->kinematic)) {
+        def->friction_q16 > CAROM_MU_MAX_Q16 || !world_rotation_valid(&s->rotation) || odd ||
+        def->one_way > CAROM_ONE_WAY_MINUS_Z || def->overlap > CAROM_OVERLAP_PASS) {
         return CAROM_ERR_ARGUMENT;
     }
     if (!world_position_in_range(&def->position) ||

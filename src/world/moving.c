@@ -196,7 +196,7 @@ static int pair_lifted(struct lift *l)
     for (uint32_t a = 0; a < w->body_count; a++) {
         for (uint32_t b = 0; b < w->body_count && movable(l, a) && result == CAROM_OK; b++) {
             bool pair = w->bodies[b].def.mesh && b != l->surface && !l->states[b].out &&
-                        (w->bodies[b].def.moving ? b < a : true) && solid(l, a, b);
+                        (!w->bodies[b].def.moving || b < a) && solid(l, a, b);
             int64_t most = lift_of(w, a);
 
             most = pair && w->bodies[b].def.moving && lift_of(w, b) > most ? lift_of(w, b) : most;

@@ -36,8 +36,8 @@ static bool body_plausible(const struct body *b, const struct body_state *s,
 
     return world_is_unit(s->rotation.c, 4, ROTATION_BITS) && world_in_range(b, s) &&
            flags_plausible(b, s) &&
-           (b->def.moving || (force->c[0] | force->c[1] | force->c[2]) == 0) &&
-           (b->def.moving || !world_forces_need_extra(forces)) &&
+           (b->def.moving ||
+            ((force->c[0] | force->c[1] | force->c[2]) == 0 && !world_forces_need_extra(forces))) &&
            world_check_forces(b, gravity, forces) == CAROM_OK;
 }
 
