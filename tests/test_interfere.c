@@ -3,7 +3,7 @@
  * Candidates against trying everything in double precision: every vertex with every face, and every
  * two edges, of two meshes.
  */
-#include "interfere/interfere.h"
+#include "interfere/narrow.h"
 #include "lib/real.h"
 #include "lib/solids.h"
 #include "lib/test.h"
@@ -663,16 +663,36 @@ static void test_nothing(void)
     CHECK_EQ(face_pool.used, 0);
 }
 
+/*
+ * The area under a body 100 units away, in quanta of 2^-20 units, is at most 2^20 quanta away; around it are the body's radius, a
+ * unit, and 2 for rounding.
+ */
+static void test_far_area(void)
+{
+    const int32_t end = 1 << 20, around = (1 << 20) + 2;
+    struct interfere_area area;
+
+    shape_plane(&shape_b, 20, 1, 4096);
+    memset(bodies, 0, sizeof bodies);
+    for (int i = 0; i < 2; i++) {
+        bodies[i].def.mesh = &shape_b.mesh;
+        bodies[i].search.region.q.c[0] = CAROM_ONE_Q30;
+    }
+    bodies[0].def.radius_q22 = 1 << 22;
+    bodies[0].search.region.at.c[0] = CAROM_RATIO(100, 1, 32);
+    bodies[0].search.region.at.c[1] = CAROM_RATIO(-100, 1, 32);
+    area = interfere_area_under(bodies, pairs, 1, 1);
+    CHECK_EQ(area.low[0], end - around);
+    CHECK_EQ(area.high[0], end + around);
+    CHECK_EQ(area.low[1], -end - around);
+    CHECK_EQ(area.high[1], around - end);
+}
+
 const struct test tests_interfere[] = {
-    {"interfere/plane", test_plane},
-    {"interfere/field", test_field},
-    {"interfere/fine_field", test_fine_field},
-    {"interfere/solid", test_solid},
-    {"interfere/motion", test_motion},
-    {"interfere/paths", test_paths},
-    {"interfere/chunks", test_chunks},
-    {"interfere/faces_full", test_faces_full},
-    {"interfere/order", test_order},
-    {"interfere/nothing", test_nothing},
-    {0},
+    {"interfere/plane", test_plane},           {"interfere/field", test_field},
+    {"interfere/fine_field", test_fine_field}, {"interfere/solid", test_solid},
+    {"interfere/motion", test_motion},         {"interfere/paths", test_paths},
+    {"interfere/chunks", test_chunks},         {"interfere/faces_full", test_faces_full},
+    {"interfere/order", test_order},           {"interfere/far_area", test_far_area},
+    {"interfere/nothing", test_nothing},       {0},
 };

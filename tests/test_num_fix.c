@@ -320,6 +320,15 @@ static void test_wide(void)
     for (int s = 0; s <= 127; s++) {
         CHECK_EQ(fix_wide_shift(&minus_one, s), -1);
     }
+    for (int s = 0; s <= 63; s++) {
+        struct fix_wide sum = {0, 1};
+
+        fix_wide_shift_up(&sum, s);
+        check_wide_equal(sum, (struct fix_wide){0, (uint64_t)1 << s});
+        fix_wide_shift_up(&sum, 63 - s);
+        fix_wide_shift_up(&sum, 1);
+        check_wide_equal(sum, (struct fix_wide){1, 0});
+    }
     check_wide_equal(fix_wide_mul(INT64_MIN, INT64_MIN), (struct fix_wide){(int64_t)1 << 62, 0});
     for (int i = 0; i < 63; i++) {
         for (int j = 0; j < 63; j++) {

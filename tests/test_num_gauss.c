@@ -420,6 +420,41 @@ static void check_row(int n, int row)
     CHECK_LESS(lacks < 0 ? -lacks : lacks, most / (1 << 12) + n / 512.0 + 1);
 }
 
+/*
+ * Rows that differ by a few units in 2^29, with small entries in the first column, so that little is left after its elimination:
+ * either no solution is found, or the right one.
+ */
+static void nearly_alike(void)
+{
+    struct test_random r = {3};
+    int solved = 0, refused = 0;
+
+    for (int i = 0; i < 4000; i++) {
+        int n = 2 + i % 3, result;
+        int32_t x[GAUSS_MAX];
+
+        memset(system_in, 0, sizeof system_in);
+        for (int j = 0; j < n; j++) {
+            int32_t entry = j == 0 ? (int32_t)test_random_range(&r, 60, 2000)
+                                   : (int32_t)test_random_range(&r, 1 << 27, 1 << 28);
+
+            x[j] = (int32_t)test_random_range(&r, -2, 2);
+            for (int k = 0; k < n; k++) {
+                system_in[k][j] = entry + (int32_t)test_random_range(&r, 0, i % 40);
+            }
+        }
+        set_right_side(n, x);
+        result = solve(n);
+        solved += result == 0;
+        refused += result != 0;
+        for (int j = 0; j < n && result == 0; j++) {
+            CHECK_NEAR(w.x_q40[j], whole_q40(x[j]), 1 << 20);
+        }
+    }
+    CHECK_MORE(solved, 0);
+    CHECK_MORE(refused, 0);
+}
+
 /* Entries of any size, so that many a system is hopeless: it is refused, or its answer fits the rows. */
 static void wild(void)
 {
@@ -462,5 +497,6 @@ const struct test tests_num_gauss[] = {{"num_gauss/hand_cases", hand_cases},
                                        {"num_gauss/singular", singular},
                                        {"num_gauss/range", range},
                                        {"num_gauss/add", add},
+                                       {"num_gauss/nearly_alike", nearly_alike},
                                        {"num_gauss/wild", wild},
                                        {0}};

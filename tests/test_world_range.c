@@ -169,7 +169,38 @@ static void test_smallest(void)
     CHECK_LESS(s.position.c[2], lies_q32 + 2 * skin_q32);
 }
 
+/*
+ * A plate with a radius of 28 units over one with 181: places that one may reach from the other have to be within 256 units. A
+ * slow plate's are. One that goes 60 units in the frame may reach 269: an error, and nothing changes.
+ */
+static void test_far_reach(void)
+{
+    const struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
+    const int64_t speeds[] = {ONE, 60 * ONE};
+
+    for (int i = 0; i < 2; i++) {
+        struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true};
+        struct carom_world *w = NULL;
+        uint64_t hash;
+
+        shape_plane(&ground, 7, 1, 256 * 128);
+        shape_box(&box, 8, 40 * 256, 40 * 256, 512);
+        CHECK_EQ(carom_world_init(block, sizeof block, &config, &w), CAROM_OK);
+        CHECK_EQ(carom_body_add(w, &def), 0);
+        def.mesh = &box.mesh;
+        def.stationary = false;
+        def.mass_q20 = 1 << 20;
+        def.position.c[2] = CAROM_RATIO(4, 1, 32);
+        def.velocity.c[0] = speeds[i];
+        CHECK_EQ(carom_body_add(w, &def), 1);
+        hash = carom_world_hash(w);
+        CHECK_EQ(carom_world_step(w), i == 0 ? CAROM_OK : CAROM_ERR_RANGE);
+        CHECK_EQ(carom_world_hash(w) == hash, i == 1);
+    }
+}
+
 const struct test tests_world_range[] = {
+    {"world_range/far_reach", test_far_reach},
     {"world_range/thin_spin", test_thin_spin},
     {"world_range/merged_contacts", test_merged_contacts},
     {"world_range/slice_ends", test_slice_ends},

@@ -8,6 +8,7 @@
 #include "carom.h"
 #include "scene.h"
 #include "lib/test.h"
+#include "step/parts.h"
 
 #define BOX_BYTES (SCENE_MESH(8, 12) + SCENE_MESH(4, 2))
 /* Capacities for one box on one plane, a pair and a few contacts, with some to spare. */
@@ -457,6 +458,24 @@ static void test_budget(void)
         CHECK_MORE(sum, 0);
         CHECK_AT_MOST(sum, stats.total_ticks);
     }
+    config.budget_ticks = UINT32_MAX; /* no step takes more */
+    other = start(other_block);
+    CHECK_EQ(carom_world_step(other), CAROM_OK);
+}
+
+/* A root belongs to the part of the window that it is in; the window's end belongs to the last part. */
+static void test_parts(void)
+{
+    const struct step_visitor v = {.parts = 4};
+    struct boyse_hit hit = {.root_q30 = CAROM_ONE_Q30};
+
+    CHECK_EQ(step_part_of(&v, &hit), 3);
+    hit.root_q30 = CAROM_ONE_Q30 / 2;
+    CHECK_EQ(step_part_of(&v, &hit), 2);
+    hit.root_q30--;
+    CHECK_EQ(step_part_of(&v, &hit), 1);
+    hit.root_q30 = 0;
+    CHECK_EQ(step_part_of(&v, &hit), 0);
 }
 
 const struct test tests_world_step[] = {{"world_step/nothing", test_nothing},
@@ -468,6 +487,7 @@ const struct test tests_world_step[] = {{"world_step/nothing", test_nothing},
                                         {"world_step/all_or_nothing", test_all_or_nothing},
                                         {"world_step/cap", test_cap},
                                         {"world_step/sweep_cap", test_sweep_cap},
+                                        {"world_step/parts", test_parts},
                                         {"world_step/out", test_out},
                                         {"world_step/budget", test_budget},
                                         {0}};

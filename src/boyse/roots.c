@@ -21,7 +21,7 @@ uint32_t curve_quotient_q30(uint32_t n, uint32_t d)
     if (shift >= 0) {
         return shift < 16 ? quotient << shift : UINT32_MAX;
     }
-    return shift > -32 ? quotient >> -shift : 0;
+    return quotient >> -shift; /* by at most 17 */
 }
 
 bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)

@@ -47,11 +47,8 @@ void contact_flatten(const struct boyse_pair *pair, const struct candidate *c, c
         return;
     }
     n = nearly_along(pair->b, &pair->b->def.mesh->edges[c->j], normal, of_b);
-    edge = &pair->a->def.mesh->edges[c->i];
+    edge = &pair->a->def.mesh->edges[c->i]; /* of a body that moves, so of a solid */
     for (int side = 0; n > 0 && side < 2; side++) {
-        if (edge->face[side] == CAROM_NO_FACE) {
-            continue;
-        }
         normal_of(pair->a, edge->face[side], of_a);
         for (int j = 0; j < n; j++) {
             if (opposite(of_a, of_b[j])) {

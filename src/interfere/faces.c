@@ -92,37 +92,18 @@ static void add_face(struct interfere *in, uint16_t body, uint16_t face)
     in->faces[pool->used++] = ref;
 }
 
-/* The face that owns a vertex. Each vertex that can be a candidate has exactly one owner. */
+/* The face that owns a vertex: the first one that has it as a corner, see mesh/edge.c. */
 static uint16_t owner_of_vertex(const struct carom_mesh *mesh, uint32_t v)
 {
+    uint16_t first = CAROM_NO_FACE; /* comes after all faces */
+
     for (uint32_t r = mesh->ring_start[v]; r < mesh->ring_start[v + 1]; r++) {
         const struct carom_edge *edge = &mesh->edges[mesh->ring[r] >> 1];
 
-        for (int side = 0; side < 2; side++) {
-            uint16_t f = edge->face[side];
-
-            for (int k = 0; f != CAROM_NO_FACE && k < 3; k++) {
-                if (mesh->raw.faces[f][k] == v && (mesh->faces[f].own >> k & 1)) {
-                    return f;
-                }
-            }
-        }
+        first = edge->face[0] < first ? edge->face[0] : first;
+        first = edge->face[1] < first ? edge->face[1] : first;
     }
-    return CAROM_NO_FACE;
-}
-
-static uint16_t owner_of_edge(const struct carom_mesh *mesh, uint32_t e)
-{
-    for (int side = 0; side < 2; side++) {
-        uint16_t f = mesh->edges[e].face[side];
-
-        for (int k = 0; f != CAROM_NO_FACE && k < 3; k++) {
-            if (mesh->faces[f].edge[k] == e && (mesh->faces[f].own >> (3 + k) & 1)) {
-                return f;
-            }
-        }
-    }
-    return CAROM_NO_FACE;
+    return first;
 }
 
 void interfere_note_faces(struct interfere *in, const struct interfere_pairs *all,
@@ -134,8 +115,8 @@ void interfere_note_faces(struct interfere *in, const struct interfere_pairs *al
         uint16_t of_a, of_b;
 
         if (c[i].kind == CANDIDATE_EDGE_EDGE) {
-            of_a = owner_of_edge(a, c[i].i);
-            of_b = owner_of_edge(b, c[i].j);
+            of_a = a->edges[c[i].i].face[0]; /* which owns it */
+            of_b = b->edges[c[i].j].face[0];
         } else if (c[i].kind == CANDIDATE_VERTEX_FACE) {
             of_a = owner_of_vertex(a, c[i].i);
             of_b = (uint16_t)c[i].j;

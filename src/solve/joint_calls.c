@@ -322,8 +322,7 @@ static void book_drive(struct rest *r, const struct joint *j)
             work->elastic_q40 + joint_product_q40(work->half_stiff_q40, after_q40 - before_q40);
     }
     if (work->law.motor) {
-        bool limited =
-            work->law.lower || work->law.upper; /* then a limit may have given a part of it */
+        bool limited = work->law.lower; /* and upper: then a limit may have given a part of it */
         int64_t motor_q40 = limited && p_q40 > work->most_q40    ? work->most_q40
                             : limited && p_q40 < -work->most_q40 ? -work->most_q40
                                                                  : p_q40;

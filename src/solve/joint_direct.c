@@ -24,7 +24,8 @@ static struct joint *next_of(const struct rest *r, const struct joint *j)
 
 static struct joint *first_of(const struct rest *r)
 {
-    return r->joints.first == 0 ? NULL : &r->joints.joints[r->joints.first - 1];
+    CAROM_ASSERT(rest_has_joints(r));
+    return &r->joints.joints[r->joints.first - 1];
 }
 
 static bool shares_body(const struct joint_work *a, const struct joint_work *b)
@@ -92,7 +93,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
     int64_t pivot_q60;
 
     memset(c, 0, (place - row->first + 1) * sizeof *c);
-    for (struct joint *k = first_of(r); k; k = next_of(r, k)) {
+    for (struct joint *k = first_of(r);; k = next_of(r, k)) {
         uint32_t end = k == j ? (uint32_t)i : k->work.held;
 
         for (uint32_t n = 0; n < end && k->work.row_at + n >= row->first; n++) {

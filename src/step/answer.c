@@ -161,7 +161,7 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
     }
 }
 
-/* Solve only contacts of the island. */
+/* Solve only contacts of the island. Body a always moves: where b is a member, it is one, too. */
 static void leave_others_idle(struct step *s)
 {
     const struct carom_world *w = s->w;
@@ -170,7 +170,7 @@ static void leave_others_idle(struct step *s)
         struct contact *c = &w->rest.list.contacts[i];
         const struct pair *p = &w->pairs[c->key.pair];
 
-        c->idle = !w->bodies[p->a].clock.member && !w->bodies[p->b].clock.member;
+        c->idle = !w->bodies[p->a].clock.member;
     }
     if (w->joint_steps) {
         w->joint_steps->choose_members(s);
@@ -244,13 +244,13 @@ static bool spend(struct step *s, uint32_t i)
     return b->def.moving && step_active(s, i) && ++b->clock.events >= s->event_cap;
 }
 
-/* Stop the island for the rest of the frame. */
+/* Stop the island for the rest of the frame. A kinematic member has been stopped already. */
 static void stop_island(struct step *s, const struct pair *p)
 {
     struct carom_world *w = s->w;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].clock.stands |= w->bodies[i].clock.member && w->bodies[i].def.moving;
+        w->bodies[i].clock.stands |= w->bodies[i].clock.member;
     }
     step_block_pushers(s, p);
     s->cut_short = true;

@@ -88,7 +88,7 @@ void step_ask_contacts(struct step *s, bool members)
         const struct pair *p = &w->pairs[number];
         uint32_t i = first, end = contact_pair_end(list, number, first);
 
-        if (members && !w->bodies[p->a].clock.member && !w->bodies[p->b].clock.member) {
+        if (members && !w->bodies[p->a].clock.member) { /* then b is none either */
             first = end;
             continue;
         }

@@ -2,10 +2,10 @@
 /* Clocks and paths: each body has a path over a part of the frame. */
 #include "parts.h"
 
-/* Gravity that acts on a path; a body in contact has taken the frame's gravity already. */
+/* Gravity that acts on the path of a body that goes on; a body in contact has taken the frame's gravity already. */
 static const carom_v3_q40 *pull_on(const struct body *b)
 {
-    return b->clock.contact != BODY_FLIES || b->clock.stands ? NULL : &b->def.acceleration;
+    return b->clock.contact != BODY_FLIES ? NULL : &b->def.acceleration;
 }
 
 /* Convert a time of the frame to one of a body's path. */
@@ -52,6 +52,7 @@ void step_leave_path(struct step *s, uint32_t i, int32_t t_q30)
     struct body *b = &s->w->bodies[i];
     struct body_state *state = &s->next->bodies[i];
 
+    CAROM_ASSERT(step_active(s, i));
     if (b->clock.placed) {
         step_look_away(s, i);
     }
@@ -59,7 +60,7 @@ void step_leave_path(struct step *s, uint32_t i, int32_t t_q30)
         b->clock.strained |=
             b->path.turns && b->clock.contact == BODY_FLIES && path_time(b, t_q30) < CAROM_ONE_Q30;
         body_region_advance(b, t_q30 - b->clock.from_q30, b->clock.to_q30 - b->clock.from_q30);
-        if (step_active(s, i) && !b->clock.stands) {
+        if (!b->clock.stands) {
             body_advance(b, state, path_time(b, t_q30), b->clock.to_q30 - b->clock.from_q30,
                          pull_on(b));
         }
@@ -135,8 +136,7 @@ FIX_APART static int set_route(struct step *s, uint32_t i, int32_t left_q30)
     }
     b->clock.to_q30 = s->now_q30 + slice_q30;
     set_own_path(s, i);
-    return slice_q30 == 0 || body_region_holds(b, slice_q30) ? CAROM_OK
-                                                             : step_set_region(s, i, slice_q30);
+    return body_region_holds(b, slice_q30) ? CAROM_OK : step_set_region(s, i, slice_q30);
 }
 
 int step_set_path(struct step *s, uint32_t i)
@@ -144,6 +144,7 @@ int step_set_path(struct step *s, uint32_t i)
     struct body *b = &s->w->bodies[i];
     int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30, slice_q30 = left_q30, shorter_q30;
 
+    CAROM_ASSERT(left_q30 > 0); /* no event comes at the end of the frame */
     b->clock.placed = false;
     b->clock.cuts = 0;
     b->clock.from_q30 = s->now_q30;
@@ -152,9 +153,8 @@ int step_set_path(struct step *s, uint32_t i)
         return set_route(s, i, left_q30);
     }
     /* at the start of a frame, bodies that nothing has changed yet are in range */
-    if (left_q30 == 0 ||
-        ((s->now_q30 > 0 || b->clock.contact != BODY_FLIES || b->def.joined != BODY_ALONE) &&
-         step_retire(s, i))) {
+    if ((s->now_q30 > 0 || b->clock.contact != BODY_FLIES || b->def.joined != BODY_ALONE) &&
+        step_retire(s, i)) {
         body_place(b, &s->next->bodies[i]);
         return CAROM_OK;
     }
@@ -199,7 +199,8 @@ bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32
             *to_q30 = b->clock.to_q30 < *to_q30 ? b->clock.to_q30 : *to_q30;
         }
     }
-    return *to_q30 > *from_q30 && (step_active(s, p->a) || step_active(s, p->b));
+    CAROM_ASSERT(step_active(s, p->a) || step_active(s, p->b));
+    return *to_q30 > *from_q30;
 }
 
 /* True if the path of a body does not match the window. */

@@ -246,7 +246,7 @@ static int32_t straight_paths(struct step *s, const struct pair *p)
     for (int k = 0; k < 2; k++) {
         const struct body *b = &s->w->bodies[both[k]];
 
-        if (b->def.moving && step_active(s, both[k])) {
+        if (b->def.moving) { /* a contact that is solved keeps it awake */
             slice_q30 = step_slice(s, both[k], slice_q30);
         } else if (body_travels(b) && b->clock.to_q30 - s->now_q30 < slice_q30) {
             slice_q30 = b->clock.to_q30 - s->now_q30;

@@ -157,7 +157,10 @@ int step_cut(struct step *s, uint32_t number, bool *tried)
     int result;
 
     *tried = false;
-    if ((!cut[0] && !cut[1]) || (cut[0] && !may_cut(s, p.a)) || (cut[1] && !may_cut(s, p.b))) {
+    if (!(cut[0] | cut[1])) {
+        return CAROM_OK;
+    }
+    if ((cut[0] && !may_cut(s, p.a)) || (cut[1] && !may_cut(s, p.b))) {
         return CAROM_OK;
     }
     *tried = true;

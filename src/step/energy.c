@@ -41,7 +41,7 @@ static bool may_gain(const struct step *s, uint32_t first)
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
-        if (b->def.mesh && !from->out && !to->out) {
+        if (!from->out && !to->out) {
             body_add_kinetic2_most(&most, b, to);
             add_lifted2(&most, b, from, to);
         }
@@ -59,7 +59,7 @@ static struct account audit(const struct step *s, uint32_t first)
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
-        if (!b->def.mesh || from->out) {
+        if (from->out) {
             continue;
         }
         body_add_kinetic2_of(&before, b, from);

@@ -149,9 +149,11 @@ int step_restore_joint(struct carom_world *w, const struct joint *made)
     if (made->used && !could_be(w, made)) {
         return CAROM_ERR_FORMAT;
     }
-    if (w->rest.joints.count >= w->pools[CAROM_POOL_joints].size ||
-        (made->used && pool_take(&w->pools[CAROM_POOL_joints]) < 0)) {
+    if (w->rest.joints.count >= w->pools[CAROM_POOL_joints].size) {
         return CAROM_ERR_JOINTS_FULL;
+    }
+    if (made->used) { /* no more joints are used than the list has */
+        (void)pool_take(&w->pools[CAROM_POOL_joints]);
     }
     put(w, w->rest.joints.count, made, &none);
     return CAROM_OK;

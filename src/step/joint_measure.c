@@ -44,7 +44,7 @@ int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
     uint16_t group = s->w->bodies[i].def.joined;
     int32_t least_q30 = led_slice(s, group, left_q30);
 
-    for (uint32_t k = 0; k < s->w->body_count && group != BODY_ALONE; k++) {
+    for (uint32_t k = 0; k < s->w->body_count; k++) {
         if (s->w->bodies[k].def.mesh && s->w->bodies[k].def.joined == group && step_active(s, k) &&
             step_in_range(&s->w->bodies[k], &s->next->bodies[k])) {
             int32_t own_q30 = own_slice(&s->w->bodies[k], &s->next->bodies[k], left_q30);
@@ -297,7 +297,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
         then[k] = pose_of(s, side[k], solve == JOINT_PROJECT ? 0 : slice_q30);
     }
     joint_set_rows(j, state, now);
-    work->idle = !j->chosen || work->rows == 0 || (!work->lever[0].body && !work->lever[1].body);
+    work->idle = work->rows == 0; /* one of the bodies of a chosen joint is awake */
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
     work->by_speed = solve == JOINT_PROJECT || slice_q30 < STEP_MEASURED_MIN_Q30;
@@ -321,7 +321,7 @@ bool connect_measure(struct step *s, enum joint_solve solve)
         struct joint *j = &s->w->rest.joints.joints[i];
 
         j->work.idle = true;
-        if (j->chosen && joint_holds(&s->w->rest.joints, i)) {
+        if (j->chosen) {
             more = measure_one(s, i, solve) || more;
         }
     }

@@ -322,7 +322,7 @@ int step_begin_regions(struct step *s)
     struct carom_world *w = s->w;
     int result = CAROM_OK;
 
-    if (w->regions_stale || s->single) {
+    if (w->regions_stale) { /* always at the second try, after an error */
         result = begin_all(s);
     } else {
         for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {

@@ -50,7 +50,7 @@ static uint32_t copy_bodies(struct carom_world *w, struct world_state *next)
         const struct body_state *from = &now->bodies[i];
         struct body_state *to = &next->bodies[i];
 
-        if (w->bodies[i].def.goes && !(from->asleep && to->asleep && !to->woken)) {
+        if (w->bodies[i].def.goes && !(from->asleep && to->asleep)) {
             *to = *from;
             active += broad_active(&w->bodies[i], from);
         }
@@ -266,7 +266,7 @@ static bool is_idle(const struct carom_world *w)
     const struct world_state *now = world_now(w);
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (broad_active(&w->bodies[i], &now->bodies[i]) || now->bodies[i].woken) {
+        if (broad_active(&w->bodies[i], &now->bodies[i])) {
             return false;
         }
     }
@@ -367,7 +367,7 @@ int carom_world_step(struct carom_world *w)
         if (may_be_less(status)) {
             status = step_frame(w, true, &cut_short);
         }
-        if (cut_short && status == CAROM_OK) {
+        if (cut_short) {
             status = CAROM_SUBSTEP_CAP;
         }
     }

@@ -68,8 +68,11 @@ static bool lasts(const struct step *s, uint32_t i)
     const struct body *b = &s->w->bodies[i];
     int64_t left_q30 = b->search.region.until_q30;
 
-    return step_active(s, i) && b->search.state == BODY_REGION_FREE &&
-           used_q30(s, i, CAROM_ONE_Q30, &left_q30) >= 0 && left_q30 > 0;
+    if (!step_active(s, i) || b->search.state != BODY_REGION_FREE) {
+        return false;
+    }
+    (void)used_q30(s, i, CAROM_ONE_Q30, &left_q30);
+    return left_q30 > 0;
 }
 
 /* End such a region with the frame. */

@@ -10,7 +10,7 @@ struct carom_mesh boxes_mesh[BOXES_MESHES];
 
 static _Alignas(8) uint8_t mesh_block[BOXES_MESHES][CAROM_MESH_BYTES(8, 12)];
 static int16_t vertices[BOXES_MESHES][8][3];
-static _Alignas(8) uint8_t block[BOXES_WORLDS][CAROM_WORLD_BYTES(BOXES_CAPS)];
+static _Alignas(8) uint8_t block[BOXES_WORLDS][CAROM_WORLD_BYTES(BOXES_CAPS, 0, BOXES_EXTRAS)];
 
 void boxes_make(int number, int x, int y, int z)
 {

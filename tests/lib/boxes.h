@@ -10,6 +10,7 @@
 #include "test.h"
 
 #define BOXES_CAPS   10, 24, 96, 256, 0, 256
+#define BOXES_EXTRAS 4 /* most extras that a configuration may ask for; none by default */
 #define BOXES_WORLDS 2
 #define BOXES_MESHES 4
 
