@@ -4,7 +4,7 @@
  *
  * bound: components below 2^29, which are not shifted
  * contract: fix_sqrt by root
- * mutant: src/num/fix.c: int shift = fix_bits3(v) - 30; -> int shift = fix_bits3(v) - 1;
+ * mutant: src/num/fix.c: most = most > z ? most : z; -> most = most > y ? most : y;
  */
 #include "proof.h"
 #include "num/fix.c"
