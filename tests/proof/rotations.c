@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Matrices and products of rotations: no operation overflows, and each entry is its formula to nearest.
+ * Matrices and products of rotations: no operation overflows, and each entry is its formula to nearest; a case is an entry.
  *
- * bound: components of quaternions up to 1 in q30; of a product of two so that the lengths are at most 1.001: four products below 2^63
+ * bound: quaternions no longer than 1 + 2^-10, components up to 1
+ * cases: 0..8
  * mutant: src/num/fix.c: carom_round(x * y - wz, 29) -> carom_round(x * y - wz, 30)
  */
 #include "proof.h"
 #include "num/fix.c"
+
+enum { ROW = CASE / 3, COLUMN = CASE % 3, OTHER = 3 - ROW - COLUMN };
 
 static bool nearest(int32_t found, wide exact, int bits)
 {
@@ -15,27 +18,34 @@ static bool nearest(int32_t found, wide exact, int bits)
     return -half <= apart && apart <= half;
 }
 
-void proof(void)
+static carom_quat_q30 quaternion(void)
 {
-    carom_quat_q30 q, p, out;
-    carom_m3_q30 m;
+    carom_quat_q30 q;
+    int64_t squares = 0;
 
     for (int k = 0; k < 4; k++) {
         q.c[k] = (int32_t)proof_range(-CAROM_ONE_Q30, CAROM_ONE_Q30);
-        p.c[k] = (int32_t)proof_range(-CAROM_ONE_Q30 / 2, CAROM_ONE_Q30 / 2);
+        squares += (int64_t)q.c[k] * q.c[k];
     }
+    proof_assume(squares <= (1LL << 60) + (1LL << 51));
+    return q;
+}
+
+void proof(void)
+{
+    carom_quat_q30 q = quaternion(), p = quaternion(), out;
+    carom_m3_q30 m;
+
     fix_matrix(&m, &q);
     fix_turn_between(&out, &q, &p);
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        wide w = (wide)q.c[0] * q.c[1 + k], xy = (wide)q.c[1 + i] * q.c[1 + j];
+    if (ROW == COLUMN) {
+        proof_check(m.c[ROW][ROW] >= -CAROM_ONE_Q30 - (1 << 22) && m.c[ROW][ROW] <= CAROM_ONE_Q30);
+    } else {
+        wide w = (wide)q.c[0] * q.c[1 + OTHER], xy = (wide)q.c[1 + ROW] * q.c[1 + COLUMN];
+        wide half = (ROW + 1) % 3 == COLUMN ? xy - w : xy + w;
 
-        proof_check(m.c[k][k] >= -CAROM_ONE_Q30 * 3LL && m.c[k][k] <= CAROM_ONE_Q30);
-        if (xy - w <= (wide)1 << 59 && xy - w >= -((wide)1 << 59)) {
-            proof_check(nearest(m.c[i][j], xy - w, 29));
-        }
-        if (xy + w <= (wide)1 << 59 && xy + w >= -((wide)1 << 59)) {
-            proof_check(nearest(m.c[j][i], xy + w, 29));
+        if (half <= (wide)1 << 59 && half >= -((wide)1 << 59)) {
+            proof_check(nearest(m.c[ROW][COLUMN], half, 29));
         }
     }
 }
