@@ -138,7 +138,7 @@ def shift_left(x, s):
 
 def shift_right(x, s, signed):
     if signed or x.low >= 0:
-        low, high = x.low, x.high
+        low, high = min(x.low, 0), max(x.high, 0)
         if 0 <= s.low and s.high < x.width:
             low, high = corners(x, s, lambda a, b: a >> b)
     else:
