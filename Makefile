@@ -198,14 +198,14 @@ test: ## run every test, here and on a board, and a scene on every board; BOARD=
 	@tools/need npm:tools/web
 	@$(SUBMAKE) BOARD=host build/host/tests.elf build/host/zlists.elf $(HOST_TESTS) $(ACCURACY) $(WINDOW) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf \
-	    build/host-debug/host_inputs.elf
+	    build/host-debug/host_inputs.elf build/host-debug/host_errors.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
 	@$(if $(PAGE),$(SUBMAKE) BOARD=wasm $(PAGE))
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \
 	    build/host/tests.elf build/host-debug/tests.elf build/host-debug/host_fuzz.elf \
-	    build/host-debug/host_replay.elf build/host-debug/host_inputs.elf \
+	    build/host-debug/host_replay.elf build/host-debug/host_inputs.elf build/host-debug/host_errors.elf \
 	    $(CORTEX_TESTS) \
 	    && $(all_built)
 endif

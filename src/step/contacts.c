@@ -390,11 +390,11 @@ static bool all_in_range(const struct step *s)
 static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
 {
     struct carom_world *w = s->w;
-    int result = CAROM_OK;
 
     *held = true;
-    for (int round = 0; round < STEP_JOINT_ROUNDS && result == CAROM_OK; round++) {
+    for (int round = 0; round < STEP_JOINT_ROUNDS; round++) {
         enum joint_solve solve = s->now_q30 > 0 ? JOINT_HIT : first ? JOINT_FRAME : JOINT_MORE;
+        int result;
 
         if (w->joint_steps && !w->joint_steps->measure(s, solve) && round > 0) {
             return CAROM_OK;
@@ -402,14 +402,17 @@ static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
         find_chords(s);
         PHASE_BEGIN(w->scratch_phase, WORLD_SOLVE);
         result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm && first);
+        if (result < 0) {
+            return result;
+        }
         note_hits(s);
         if (!w->joint_steps || !all_in_range(s)) {
-            return result;
+            return CAROM_OK;
         }
         first = false;
     }
     *held = false;
-    return result;
+    return CAROM_OK;
 }
 
 int step_solve(struct step *s, bool warm)
