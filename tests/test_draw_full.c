@@ -143,9 +143,9 @@ static void shadows(void)
     compare(world, &paint);
 }
 
-#define TEST_STEP 152
+enum { MORE_LINES = 30, MORE_BYTES = 152 };
 #else
-#define TEST_STEP 5000
+enum { MORE_LINES = 120, MORE_BYTES = 5000 };
 #endif
 
 static uint8_t whole[SIZE][SIZE];
@@ -177,7 +177,7 @@ static void knot(void)
     draw_8(world, &above, CAROM_DRAW_FLAT);
     memcpy(bare, pixels, sizeof bare);
     picture.paint = &paint;
-    for (paint.line_count = 10; paint.line_count <= MOST; paint.line_count += 30) {
+    for (paint.line_count = 10; paint.line_count <= MOST; paint.line_count += MORE_LINES) {
         int shown = 0, hidden = 0;
 
         picture.workspace = large;
@@ -221,7 +221,7 @@ static void little(void)
     picture.workspace_bytes = sizeof space;
     CHECK_EQ(carom_draw(world, &low, &picture, CAROM_DRAW_FLAT), CAROM_OK);
     memcpy(whole, pixels, sizeof whole);
-    for (size_t bytes = 36000; bytes < sizeof space; bytes += TEST_STEP) {
+    for (size_t bytes = 36000; bytes < sizeof space; bytes += MORE_BYTES) {
         picture.workspace_bytes = bytes;
         CHECK_EQ(carom_draw(world, &low, &picture, CAROM_DRAW_FLAT), CAROM_OK);
         CHECK_EQ(memcmp(whole, pixels, sizeof whole), 0);
