@@ -422,7 +422,7 @@ int step_solve(struct step *s, bool warm)
     bool held;
     int result = solve_rounds(s, warm, true, &held);
 
-    if (!held && result == CAROM_OK) {
+    if (!held) { /* a failure ends the rounds before that */
         (void)w->joint_steps->measure(s, s->now_q30 > 0 ? JOINT_HIT : JOINT_MORE);
         if (w->joint_steps->yield(s)) {
             result = solve_rounds(s, false, false, &held);
