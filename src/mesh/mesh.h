@@ -154,7 +154,7 @@ static inline carom_v3_q30 mesh_edge_inward(const struct carom_mesh *mesh,
                                             const struct carom_edge *edge, int side)
 {
     const int32_t *n = mesh->faces[edge->face[side]].normal.c;
-    carom_v3_q30 in;
+    carom_v3_q30 in = {{0, 0, 0}};
 
     CAROM_ASSERT(edge->face[side] != CAROM_NO_FACE);
     /* face 0 runs along the edge, face 1 against it */
