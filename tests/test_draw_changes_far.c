@@ -18,15 +18,10 @@ static struct carom_world *world;
 
 static struct carom_picture picture_of(void *to, const struct carom_paint *paint)
 {
-    const struct carom_picture picture = {.pixels = to,
-                                          .width = WIDTH,
-                                          .height = HEIGHT,
-                                          .stride = WIDTH,
-                                          .format = CAROM_PALETTE8,
-                                          .workspace = far_workspace,
-                                          .workspace_bytes = sizeof far_workspace,
-                                          .paint = paint};
+    struct carom_picture picture =
+        picture_of_size(to, WIDTH, HEIGHT, far_workspace, sizeof far_workspace);
 
+    picture.paint = paint;
     return picture;
 }
 

@@ -52,15 +52,9 @@ static void make_surface(struct carom_mesh *mesh, int n, int rough)
 /* Draw with much room and with little; both pictures must be the same. */
 static void compare(struct carom_world *world, const struct carom_paint *paint)
 {
-    struct carom_picture picture = {.pixels = first,
-                                    .width = WIDE,
-                                    .height = WIDE,
-                                    .stride = WIDE,
-                                    .format = CAROM_PALETTE8,
-                                    .workspace = much,
-                                    .workspace_bytes = sizeof much,
-                                    .paint = paint};
+    struct carom_picture picture = picture_of_size(first, WIDE, WIDE, much, sizeof much);
 
+    picture.paint = paint;
     memset(first, 1, sizeof first);
     memset(second, 2, sizeof second);
     CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);

@@ -7,12 +7,12 @@
 
 #include "carom_replay.h"
 #include "lib/test.h"
+#include "lib/written.h"
 
-#define CAPS       8, 16, 64, 256, 64, 256, 2, 6, 4
-#define FILE_BYTES 8192
-#define ROOM       60000
-#define FRAMES     70 /* more than 64: a state is written in full */
-#define FPS        60
+#define CAPS   8, 16, 64, 256, 64, 256, 2, 6, 4
+#define ROOM   60000
+#define FRAMES 70 /* more than 64: a state is written in full */
+#define FPS    60
 
 static const int16_t corners[][3] = {{99, 99, 99}, {99, -99, -99}, {-99, 99, -99}, {-99, -99, 99}};
 static const uint16_t sides[][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
@@ -27,21 +27,9 @@ static const uint8_t of_face[4] = {0, 1, 0, 1};
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], ground_block[CAROM_SURFACE_BYTES(3, 1)],
     solid_block[CAROM_MESH_BYTES(4, 4)], room[ROOM], snapshot[4096];
-static uint8_t file[FILE_BYTES];
-static size_t file_bytes;
 static struct carom_mesh meshes[2];
 static struct carom_record record;
 static struct carom_replay player;
-
-static void write_file(void *user, const void *bytes, size_t count)
-{
-    (void)user;
-    CHECK_AT_MOST(file_bytes + count, sizeof file);
-    if (file_bytes + count <= sizeof file) {
-        memcpy(file + file_bytes, bytes, count);
-        file_bytes += count;
-    }
-}
 
 /* Drops contacts of body 3, and makes those of body 2 slippery. */
 static bool contact(void *user, struct carom_touch *touch)

@@ -8,33 +8,21 @@
 #include "carom_replay.h"
 #include "lib/box.h"
 #include "lib/test.h"
+#include "lib/written.h"
 
-#define CAPS       3, 4, 32, 64, 0, 64, 1, 2, 0
-#define MORE_CAPS  5, 8, 64, 128, 0, 64, 0, 4, 0
-#define FACES      12
-#define FILE_BYTES 8192
-#define ROOM       100000
+#define CAPS      3, 4, 32, 64, 0, 64, 1, 2, 0
+#define MORE_CAPS 5, 8, 64, 128, 0, 64, 0, 4, 0
+#define FACES     12
+#define ROOM      100000
 
 static const int16_t corners[8][3] = BOX_CORNERS(128, 128, 128); /* a side and a volume of 1 */
 static const struct carom_mesh_raw cube = {corners, box_faces, 8, FACES, 8, CAROM_SOLID};
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(MORE_CAPS)],
     mesh_block[CAROM_MESH_BYTES(8, 12)], room[ROOM], memory[4096];
-static uint8_t file[FILE_BYTES];
-static size_t file_bytes;
 static struct carom_mesh mesh;
 static struct carom_record record;
 static struct carom_replay player;
-
-static void write_file(void *user, const void *bytes, size_t count)
-{
-    (void)user;
-    CHECK_AT_MOST(file_bytes + count, sizeof file);
-    if (file_bytes + count <= sizeof file) {
-        memcpy(file + file_bytes, bytes, count);
-        file_bytes += count;
-    }
-}
 
 /* Play the file in so much memory; returns the result it ends with. */
 static int play_in(size_t bytes)

@@ -378,17 +378,6 @@ static void test_no_spring(void)
     }
 }
 
-static int events_of(int kind, int a, int b)
-{
-    const struct carom_event *e;
-    int found = 0;
-
-    for (int i = carom_events(world, &e) - 1; i >= 0; i--) {
-        found += e[i].kind == kind && e[i].a == a && e[i].b == b;
-    }
-    return found;
-}
-
 /*
  * A kinematic box leads another one by a joint, by 2 units a frame, against a wall 1.5 units before it. The hit is the last one
  * that the world allows, so the led box stops there, and the one that leads it stops with it.

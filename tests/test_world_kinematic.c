@@ -62,17 +62,6 @@ static int lead(int body, double x, double z)
     return carom_body_move_to(world, body, &pose);
 }
 
-static int events_of(int kind, int a, int b)
-{
-    const struct carom_event *e;
-    int found = 0;
-
-    for (int i = carom_events(world, &e) - 1; i >= 0; i--) {
-        found += e[i].kind == kind && e[i].a == a && e[i].b == b;
-    }
-    return found;
-}
-
 static carom_quat_q30 random_turn(struct test_random *r)
 {
     carom_quat_q30 q;

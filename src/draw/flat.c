@@ -195,7 +195,7 @@ static bool see_lines(struct flat *f)
         if (!draw_segment(f->view, &line->from, &line->to, ends)) {
             continue;
         }
-        if (!has_room(f)) { /* for much more than a line, which leaves some for the row */
+        if (!has_room(f)) { /* for a leaf: a line takes less */
             return false;
         }
         draw_ribbon(ends, corner);

@@ -2,7 +2,10 @@
 /* Clocks and paths: each body has a path over a part of the frame. */
 #include "parts.h"
 
-/* Gravity that acts on the path of a body that goes on; a body in contact has taken the frame's gravity already. */
+/*
+ * Gravity that acts on the path of a body that goes on; a body in contact has taken the frame's
+ * gravity already.
+ */
 static const carom_v3_q40 *pull_on(const struct body *b)
 {
     return b->clock.contact != BODY_FLIES ? NULL : &b->def.acceleration;

@@ -302,9 +302,9 @@ void world_drop_through(const struct carom_world *w, struct world_state *s, uint
 bool world_overlap(struct carom_world *w, struct interfere_placed a, struct interfere_placed b);
 
 /*
- * Before body `place` gets a state: if it would cross bodies that
- * it may touch, by more than about a skin, refuse with CAROM_ERR_OVERLAP, or push it out, or check
- * that there is room for the pairs that will pass.
+ * Before body `place` gets a state: if it would cross bodies that it may touch, by more than about
+ * a skin, refuse with CAROM_ERR_OVERLAP, or push it out, or check that there is room for the pairs
+ * that will pass.
  */
 int world_settle(struct carom_world *w, const struct body *b, uint32_t place,
                  struct body_state *state, int overlap);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * boxes - small worlds of boxes, for the tests of filters, sensors and overlaps. Lengths are in 2^-10 world units;
+ * boxes - small worlds of boxes, for tests of what bodies do to each other. Lengths are in 2^-10 world units;
  * bodies have e = 0, mu = 1/2 and density 1.
  */
 #ifndef CAROM_TEST_BOXES_H

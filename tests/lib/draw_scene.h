@@ -99,17 +99,24 @@ static inline carom_v3_q32 at(int64_t x, int64_t y, int64_t z)
     return p;
 }
 
-static inline struct carom_picture picture_8(void)
+/* A picture of 8-bit pixels, whose rows have no gaps. */
+static inline struct carom_picture picture_of_size(void *to, int32_t width, int32_t height,
+                                                   void *space, size_t bytes)
 {
-    struct carom_picture picture = {.pixels = pixels,
-                                    .width = SIZE,
-                                    .height = SIZE,
-                                    .stride = SIZE,
+    struct carom_picture picture = {.pixels = to,
+                                    .width = width,
+                                    .height = height,
+                                    .stride = width,
                                     .format = CAROM_PALETTE8,
-                                    .workspace = workspace,
-                                    .workspace_bytes = sizeof workspace};
+                                    .workspace = space,
+                                    .workspace_bytes = bytes};
 
     return picture;
+}
+
+static inline struct carom_picture picture_8(void)
+{
+    return picture_of_size(pixels, SIZE, SIZE, workspace, sizeof workspace);
 }
 
 static inline void draw_8(const struct carom_world *world, const struct carom_camera *camera,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* one_world - the world of a test source, its states and steps, and the calls that it refuses. */
+/* one_world - the world of a test source, its states, steps and events, and the calls that it refuses. */
 #ifndef CAROM_TEST_ONE_WORLD_H
 #define CAROM_TEST_ONE_WORLD_H
 
@@ -25,6 +25,18 @@ static inline void steps(int frames)
     for (int i = 0; i < frames; i++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
+}
+
+/* Count the events of a kind between two bodies in the last step. */
+static inline int events_of(int kind, int a, int b)
+{
+    const struct carom_event *e;
+    int found = 0;
+
+    for (int i = carom_events(world, &e) - 1; i >= 0; i--) {
+        found += e[i].kind == kind && e[i].a == a && e[i].b == b;
+    }
+    return found;
 }
 
 /* Check that a call is refused and leaves the state unchanged. */
