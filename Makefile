@@ -655,7 +655,7 @@ build/tools/retro_run: $(wildcard tools/retro_*.[ch]) port/nds/channel.h
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
 	$(CC) -std=c11 -O2 $(WARNINGS) -DCORES='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro"' -o $@ $(filter %.c,$^)
-PSX_PLUGINS := /usr/lib/$(shell $(CC) -print-multiarch)/psemu
+PSX_PLUGINS = /usr/lib/$(shell $(CC) -print-multiarch)/psemu
 build/tools/psx_plugin.so: tools/psx_plugin.c
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
