@@ -186,6 +186,9 @@ scenes: ## list the scenes, with thumbnails in out/scenes/index.html and out/sce
 	@$(SUBMAKE) BOARD=host build/host/head.elf >/dev/null
 	@tools/scene_sheet.py build/host/head.elf out/scenes
 
+# with sanitizers and assertions
+DEBUG_TESTS := $(patsubst %,build/host-debug/%.elf,tests host_fuzz host_replay host_inputs host_errors host_soak)
+
 ifneq ($(ASKED),)
 test: need
 	@$(SUBMAKE) BOARD=host build
@@ -197,16 +200,13 @@ test: ## run every test, here and on a board, and a scene on every board; BOARD=
 	    sdl2 xvfb xdotool
 	@tools/need npm:tools/web
 	@$(SUBMAKE) BOARD=host build/host/tests.elf build/host/zlists.elf $(HOST_TESTS) $(ACCURACY) $(WINDOW) build/tools/carom-mesh
-	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf \
-	    build/host-debug/host_inputs.elf build/host-debug/host_errors.elf
+	@$(SUBMAKE) BOARD=host DEBUG=1 $(DEBUG_TESTS)
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
 	@$(if $(PAGE),$(SUBMAKE) BOARD=wasm $(PAGE))
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \
-	    build/host/tests.elf build/host-debug/tests.elf build/host-debug/host_fuzz.elf \
-	    build/host-debug/host_replay.elf build/host-debug/host_inputs.elf build/host-debug/host_errors.elf \
-	    $(CORTEX_TESTS) \
+	    build/host/tests.elf $(DEBUG_TESTS) $(CORTEX_TESTS) \
 	    && $(all_built)
 endif
 

@@ -27,7 +27,11 @@ static const uint64_t known[] = {53,   103,  173,  178,  215,  267,  340,  406, 
                                  496,  502,  601,  626,  646,  740,  748,  792,  893,
                                  963,  1060, 1098, 1113, 1455, 1468, 1513, 1608, 1678,
                                  1719, 1754, 1791, 1973, 1977, 2123, 2257, 2391, 2502};
-#define WORLDS (FIRST + sizeof known / sizeof *known)
+/* Machines in which a sum of an earlier engine left its 32 or 64 bits: the debug build notices. */
+static const struct {
+    uint64_t seed;
+    bool wild;
+} known_machines[] = {{50, false}, {102, false}, {121, false}, {14, true}, {68, true}, {123, true}};
 /* Largest share of frames that may be cut short. */
 #define CUT_ALLOWED 0.01
 
@@ -103,6 +107,26 @@ struct name {
     uint64_t seed;
     bool machine, wild;
 };
+
+/* The world at a place in the list that `make test` runs; false behind the last one. */
+static bool known_name(bool machine, size_t place, struct name *name)
+{
+    const size_t more = place - FIRST;
+
+    *name = (struct name){place + 1, machine, false};
+    if (place < FIRST) {
+        return true;
+    }
+    if (machine && more < sizeof known_machines / sizeof *known_machines) {
+        *name = (struct name){known_machines[more].seed, true, known_machines[more].wild};
+        return true;
+    }
+    if (!machine && more < sizeof known / sizeof *known) {
+        name->seed = known[more];
+        return true;
+    }
+    return false;
+}
 
 static struct name read_name(const char *text)
 {
@@ -313,9 +337,9 @@ static void show(struct name name, long from, long to)
 /* ----------------------------------------------------------------------- tests */
 
 struct sum {
-    long worlds, machines, frames, cut;
+    long worlds, frames, cut;
     long faults[SOAK_FAULTS];
-    uint64_t first[SOAK_FAULTS]; /* seed of the first world with the fault */
+    char first[SOAK_FAULTS][32]; /* the name of the first world with the fault */
     double deepest, rise, step_seconds, still, work, apart; /* worst values */
 };
 
@@ -335,7 +359,6 @@ static const char *const what_of[SOAK_FAULTS] = {[SOAK_CROSSES] = "crossings_in_
 static void add(struct sum *sum, const struct soak_result *r)
 {
     sum->worlds++;
-    sum->machines += world.machine != NULL;
     sum->frames += r->tally.frames;
     sum->cut += r->tally.capped;
     sum->deepest = fmax(sum->deepest, r->tally.crossed_skins);
@@ -348,7 +371,8 @@ static void add(struct sum *sum, const struct soak_result *r)
         bool has = soak_has(r, fault);
 
         if (has && sum->faults[fault]++ == 0) {
-            sum->first[fault] = world.seed;
+            snprintf(sum->first[fault], sizeof sum->first[fault], "%s%llu", prefix(),
+                     (unsigned long long)world.seed);
         }
     }
 }
@@ -356,25 +380,24 @@ static void add(struct sum *sum, const struct soak_result *r)
 static void report(const struct sum *sum, enum soak_fault fault, bool ok, const char *name,
                    double worst)
 {
-    char seed[64] = "";
+    char how[64] = "";
 
     if (!ok) {
-        snprintf(seed, sizeof seed, ", run host_soak.elf %s%llu", sum->machines ? "m" : "",
-                 (unsigned long long)sum->first[fault]);
+        snprintf(how, sizeof how, ", run host_soak.elf %s", sum->first[fault]);
     }
     lab_report(ok, name, "%ld worlds, %ld frames, %ld worlds fail, worst %.3g%s", sum->worlds,
-               sum->frames, sum->faults[fault], worst, seed);
+               sum->frames, sum->faults[fault], worst, how);
 }
 
 /* Run some worlds of a kind; the names of their tests begin with the kind. */
 static void test(const char *kind, bool machine)
 {
     struct sum sum = {0};
+    struct name name;
     char names[SOAK_FAULTS][64];
     double worst[SOAK_FAULTS] = {0};
 
-    for (size_t i = 0; i < (machine ? FIRST : WORLDS); i++) {
-        const struct name name = {i < FIRST ? i + 1 : known[i - FIRST], machine, false};
+    for (size_t i = 0; known_name(machine, i, &name); i++) {
         struct soak_result result;
 
         if (open_case(kind, (long)name.seed)) {
@@ -415,7 +438,9 @@ int main(int argc, char **argv)
         show(read_name(argv[1]), argc > 3 ? atol(argv[2]) : 1, argc > 3 ? atol(argv[3]) : 0);
         return 0;
     }
+#ifdef TEST_LONG /* with sanitizers, machines are enough: they have all parts of the others */
     test("soak", false);
+#endif
     test("machine", true);
     return lab_finish();
 }

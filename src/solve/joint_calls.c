@@ -291,6 +291,9 @@ static void apply(struct rest *r)
     }
 }
 
+/* A velocity that is booked, q40; a body this fast is out of range, and freezes. */
+#define BOOKED_BITS 60
+
 /* Reload the velocities of a joint's bodies after a solve. */
 static void refresh(const struct rest *r, struct joint *j)
 {
@@ -300,6 +303,9 @@ static void refresh(const struct rest *r, struct joint *j)
         if (b) {
             body_velocity(b, &r->states[s == 0 ? j->a : j->b], &b->solve.velocity);
             body_spin(b, &r->states[s == 0 ? j->a : j->b], &b->path.start.r, &b->solve.spin);
+            for (int k = 0; k < 3; k++) {
+                b->solve.velocity.c[k] = joint_limited(b->solve.velocity.c[k], BOOKED_BITS);
+            }
         }
     }
 }

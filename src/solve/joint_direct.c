@@ -16,6 +16,12 @@
  * without measure.
  */
 #define PIVOT_MIN_Q60 ((int64_t)1 << (60 - 24))
+/*
+ * The square of the length of a row of C, which is at most 1 but for rounding. Where A is far from
+ * what it should be, as bodies spin many times a frame, entries beyond this are left out: two rows
+ * have a product below 2^63 by the inequality of Cauchy and Schwarz.
+ */
+#define LENGTH2_MAX_Q60 ((uint64_t)4 << 60)
 
 static struct joint *next_of(const struct rest *r, const struct joint *j)
 {
@@ -76,7 +82,6 @@ static int64_t product_q60(const struct rest *r, const struct joint_row *i,
     const int32_t *b = &r->joints.room[k->start + from - k->first];
     int64_t sum = 0;
 
-    /* rows of C have length 1 at most, but for rounding */
     for (uint32_t n = from; n < end; n++) {
         sum += (int64_t)*a++ * *b++;
     }
@@ -90,6 +95,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
     uint32_t place = work->row_at + (uint32_t)i;
     struct joint_row *row = &r->joints.rows[place];
     int32_t *c = &r->joints.room[row->start];
+    uint64_t length2_q60 = 0;
     int64_t pivot_q60;
 
     memset(c, 0, (place - row->first + 1) * sizeof *c);
@@ -107,10 +113,18 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
     for (uint32_t n = row->first; n < place; n++) {
         const struct joint_row *other = &r->joints.rows[n];
         int64_t left = carom_shl(c[n - row->first], 30) - product_q60(r, row, other, n);
+        int32_t entry = rest_within(fix_mul_scaled(left, other->inverse) >> 30, CAROM_ONE_Q30);
+        uint64_t square_q60 = (uint64_t)((int64_t)entry * entry);
 
-        c[n - row->first] = rest_within(fix_mul_scaled(left, other->inverse) >> 30, CAROM_ONE_Q30);
+        if (length2_q60 + square_q60 > LENGTH2_MAX_Q60) {
+            entry = 0;
+            square_q60 = 0;
+        }
+        length2_q60 += square_q60;
+        c[n - row->first] = entry;
     }
-    pivot_q60 = carom_shl(joint_entry_q30(work, i, work, i), 30) - product_q60(r, row, row, place);
+    pivot_q60 = carom_shl(rest_within(joint_entry_q30(work, i, work, i), INT32_MAX), 30) -
+                (int64_t)length2_q60;
     row->inverse = (struct fix_scaled){0, 0};
     if (pivot_q60 > PIVOT_MIN_Q60) {
         row->inverse = fix_scaled_inverse(fix_scale((int64_t)fix_sqrt((uint64_t)pivot_q60), 30));

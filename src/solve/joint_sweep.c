@@ -5,35 +5,27 @@
  */
 #include "joint_parts.h"
 
-/* V - wanted V of a row now; V of the last row. */
+/* V - wanted V of a row now; V of the last row. Two ways may differ by more than 32 bits hold. */
 int32_t joint_present(const struct joint_work *work, int row)
 {
-    const struct body *a = work->lever[0].body, *b = work->lever[1].body;
-    const int32_t *d = work->direction[row];
+    const bool slides = !joint_is_angular(work, row);
     uint64_t turn = (uint64_t)1 << 31;
-    int32_t way[3] = {0, 0, 0};
-    int64_t v = 0;
+    int64_t way = 0;
 
-    if (a) {
-        const struct body_path *in = body_solved(a);
+    for (int s = 0; s < 2; s++) {
+        const struct joint_lever *lever = &work->lever[s];
+        int64_t own_turn, own_way;
 
-        turn += (uint64_t)carom_dot(work->lever[0].turn[row], in->du);
-        for (int k = 0; k < 3; k++) {
-            way[k] = in->dv[k];
+        if (!lever->body) {
+            continue;
         }
+        own_turn = carom_dot(lever->turn[row], body_solved(lever->body)->du);
+        own_way = slides ? carom_dot(work->direction[row], body_solved(lever->body)->dv) : 0;
+        turn += (uint64_t)(s == 0 ? own_turn : -own_turn);
+        way += s == 0 ? own_way : -own_way;
     }
-    if (b) {
-        const struct body_path *in = body_solved(b);
-
-        turn -= (uint64_t)carom_dot(work->lever[1].turn[row], in->du);
-        for (int k = 0; k < 3; k++) {
-            way[k] -= in->dv[k];
-        }
-    }
-    if (!joint_is_angular(work, row)) {
-        v = carom_round(carom_dot(d, way), 30 + REST_FINER_BITS + work->down);
-    }
-    return rest_clamp(work->before[row] + v + ((int64_t)turn >> 32));
+    way = carom_round(way, 30 + REST_FINER_BITS + work->down);
+    return rest_clamp(work->before[row] + way + ((int64_t)turn >> 32));
 }
 
 /* If K is all but singular an impulse is long though its effect is short. */

@@ -207,8 +207,8 @@ static void twist(struct contact *c, const int32_t moment[3])
 
             turn = fix_round_shift(turn, b->solve.turn_bits + 1 - c->work->fine_bits -
                                              column_bits(c, b, j));
-            body_solve(b)->du[j] += rest_within(turn, CAROM_ONE_Q30);
-            body_solve(b)->used |= (uint32_t)(body_solve(b)->du[j] ^ (body_solve(b)->du[j] >> 31));
+            body_solve(b)->used |=
+                rest_add(&body_solve(b)->du[j], rest_within(turn, CAROM_ONE_Q30));
         }
     }
 }

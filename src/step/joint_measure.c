@@ -208,14 +208,14 @@ static int64_t beyond(const struct carom_joint_drive *d, int64_t q_q40)
 
 /*
  * Set the bodies of a joint that answer. Returns their slice; *skin_q40 becomes the smaller of
- * their skins.
+ * their skins, or without bound where neither moves.
  */
 static int32_t measure_sides(struct step *s, struct joint *j, int64_t *skin_q40)
 {
     const uint16_t side[2] = {j->a, j->b};
     int32_t slice_q30 = CAROM_ONE_Q30 - s->now_q30;
 
-    *skin_q40 = INT64_MAX;
+    *skin_q40 = INT64_MAX / STEP_TORN_SKINS;
     for (int k = 0; k < 2; k++) {
         struct body *b = connect_answers(s, side[k]) ? &s->w->bodies[side[k]] : NULL;
 
