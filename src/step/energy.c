@@ -9,8 +9,8 @@
 
 /* Twice the energies of an island, 80 fractional bits. */
 struct account {
-    struct fix_wide kinetic; /* at the end of the frame */
-    struct fix_wide excess;  /* gain over the energy at the start and over what contact may lift */
+    struct fix_wide before, kinetic; /* of motion, at the start and the end of the frame */
+    struct fix_wide excess; /* gain over the energy at the start and over what contact may lift */
 };
 
 /*
@@ -52,8 +52,7 @@ static bool may_gain(const struct step *s, uint32_t first)
 /* Sum up what an island gained. A body that left the world in this frame took its energy along. */
 static struct account audit(const struct step *s, uint32_t first)
 {
-    struct account sum = {{0, 0}, {0, 0}};
-    struct fix_wide before = {0, 0};
+    struct account sum = {{0, 0}, {0, 0}, {0, 0}};
 
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body *b = &s->w->bodies[i];
@@ -62,7 +61,7 @@ static struct account audit(const struct step *s, uint32_t first)
         if (from->out) {
             continue;
         }
-        body_add_kinetic2_of(&before, b, from);
+        body_add_kinetic2_of(&sum.before, b, from);
         if (to->out) {
             continue;
         }
@@ -70,7 +69,7 @@ static struct account audit(const struct step *s, uint32_t first)
         add_lifted2(&sum.excess, b, from, to);
     }
     fix_wide_add(&sum.excess, &sum.kinetic);
-    fix_wide_subtract(&sum.excess, &before);
+    fix_wide_subtract(&sum.excess, &sum.before);
     if (s->w->joint_steps) {
         s->w->joint_steps->add_springs2(s, first, &sum.excess);
     }
@@ -235,13 +234,35 @@ static void limit_island(struct step *s, uint32_t first)
     }
 }
 
-/* True if an energy must grow by more than a quarter. */
+/* True if an energy must grow by more than STEP_CONSERVE_MOST_Q30 gives: (9 / 8)^2 - 1 of it. */
 static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owed2)
 {
-    struct fix_wide sum = fix_wide_down(energy, 2);
+    struct fix_wide sum = fix_wide_down(energy, 2), more = fix_wide_down(energy, 6);
 
+    fix_wide_add(&sum, &more);
     fix_wide_add(&sum, owed2);
     return fix_wide_sign(&sum) < 0;
+}
+
+/*
+ * True if a frame lost more than a quarter of the energy that moved in it: bodies set out against
+ * their joints, or what they hung on stopped. That is an impact, and nothing to be given back.
+ */
+static bool is_snatched(const struct account *sum)
+{
+    struct fix_wide moved = sum->before, most;
+
+    fix_wide_subtract(&moved, &sum->kinetic);
+    fix_wide_add(&moved, &sum->excess); /* what height and springs took up */
+    if (fix_wide_sign(&moved) < 0) {
+        most = (struct fix_wide){0, 0};
+        fix_wide_subtract(&most, &moved);
+        moved = most;
+    }
+    fix_wide_add(&moved, &sum->before);
+    most = fix_wide_down(&moved, 2);
+    fix_wide_add(&most, &sum->excess);
+    return fix_wide_sign(&most) < 0;
 }
 
 /*
@@ -257,7 +278,9 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
     struct rest_rigid rigid;
     int32_t factor, least;
 
-    fix_wide_add(owed2, &sum.excess);
+    if (!is_snatched(&sum)) {
+        fix_wide_add(owed2, &sum.excess);
+    }
     if (!grounded) {
         if (!rest_rigid_motion(&s->w->rest, first, &rigid)) {
             return;
