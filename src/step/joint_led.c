@@ -131,6 +131,12 @@ bool connect_yield(struct step *s)
     return any;
 }
 
+/* True if no impulse moves a side of a joint; a body that left the world stays where it did. */
+static bool stands_fast(const struct step *s, uint16_t i)
+{
+    return i == JOINT_WORLD || !s->w->bodies[i].def.moving || s->next->bodies[i].out;
+}
+
 /*
  * Mark bodies that hang on a stationary or kinematic body, or on the world, as grounded. Bodies
  * that hang on a moving kinematic body count as touched as well: its motion gives them energy, and
@@ -143,9 +149,11 @@ void connect_ground(struct step *s)
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (joint_holds(list, i) && (j->b == JOINT_WORLD || !s->w->bodies[j->b].def.moving)) {
+        if (joint_holds(list, i) && stands_fast(s, j->b)) {
             s->w->bodies[j->a].clock.grounded = true;
             s->w->bodies[j->a].clock.touched |= is_led(s, i);
+        } else if (joint_holds(list, i) && stands_fast(s, j->a)) {
+            s->w->bodies[j->b].clock.grounded = true;
         }
     }
 }
