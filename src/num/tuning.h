@@ -310,6 +310,15 @@
  */
 #define STEP_TORN_SKINS 4
 /*
+ * A spring pulls for half the time, and its group takes shorter slices, until it changes a velocity
+ * by no more than this part of what leads to no pull: an eighteenth is a third of a radian of the
+ * free swing, whose period comes out 1 % long. Not below 1/16 of a frame. A spring that is at more
+ * than a third then, 1 radian, gives its impulse at once. Chosen; in joint_spring.c.
+ */
+#define JOINT_SWING_Q30      (CAROM_ONE_Q30 / 18)
+#define JOINT_SWING_MOST_Q30 (CAROM_ONE_Q30 / 3)
+#define JOINT_PULL_LEAST_Q30 (CAROM_ONE_Q30 / 16)
+/*
  * Radians that what joints hold turns in a slice at most. Chosen: anchors part by what that bends,
  * and solves see it as straight. In joint_measure.c.
  */

@@ -40,6 +40,7 @@ struct joint_law {
     int32_t motor_v;
     int32_t spring_v; /* V at which the spring has no impulse */
     int32_t soft_q30; /* the spring's impulse over the one that leads to spring_v */
+    int64_t push;     /* the second half of an earlier pull */
     int64_t most;     /* of the motor's impulse */
 };
 
@@ -65,6 +66,8 @@ struct joint_work {
     bool idle;                   /* solved already, or not to be solved now */
     bool by_speed;               /* the slice is too short to measure positions: use V itself */
     bool torn;                   /* apart by some skins at the end of the slice */
+    bool stops;                  /* the limits ask for V of 0 at least or at most */
+    bool halved;                 /* a spring gives half of its impulse now, and half afterwards */
     int8_t down, length_bits;
     int8_t inverse_bits;                     /* fractional bits of the inverse */
     int32_t direction[JOINT_ROWS][3];        /* q30 */
@@ -76,12 +79,21 @@ struct joint_work {
     int64_t change_q40[JOINT_ROWS]; /* the required change of V */
     int64_t speed_q40[JOINT_ROWS];  /* V before the solve */
     /*
-     * changes of V of the last row that the limits (low, high) and the spring (spring) ask for; the
-     * motor's largest impulse (most); the spring's impulse by V (stiff); a bound on these changes
-     * (least)
+     * changes of V of the last row that the limits ask for (low, high); the motor's largest impulse
+     * (most); a bound on these changes and the motor's velocity (least)
      */
-    int64_t low_q40, high_q40, most_q40, spring_q40, stiff_q40, least_q40;
-    /* the spring's impulse without damping: -elastic - half_stiff (V' - V) */
+    int64_t low_q40, high_q40, most_q40, least_q40;
+    /*
+     * a spring: by how much it is off its rest, and the rate of that on the present paths; a solve
+     * lets it pull for a part of the frame that begins `ahead` from now
+     */
+    int64_t off_q40, rate_q40;
+    int32_t ahead_q30, pull_q30;
+    int64_t second_q40, push_q40; /* the other half; the one that this solve gives */
+    /* the time up to which its pull is in the velocities; the longest pull, by its stiffness */
+    int32_t pulled_q30, pull_most_q30;
+    int64_t spring_q40, stiff_q40; /* its change of V, and its impulse by V */
+    /* its impulse without damping: -elastic - half_stiff (V' - V) */
     int64_t elastic_q40, half_stiff_q40;
     /* in the sweeps */
     int32_t before[JOINT_ROWS]; /* V - wanted V; V of the last row */
@@ -125,10 +137,11 @@ struct joint {
 
 /* The purpose of a solve. */
 enum joint_solve {
-    JOINT_FRAME,  /* start of a frame: motors and springs act, too */
-    JOINT_MORE,   /* again, for what paths bend by */
-    JOINT_HIT,    /* at a hit within the frame */
-    JOINT_PROJECT /* end of the frame: velocities alone */
+    JOINT_FRAME,    /* start of a frame: motors and springs act, too */
+    JOINT_MORE,     /* again, for what paths bend by */
+    JOINT_HIT,      /* at a hit or a slice's end within the frame: springs act */
+    JOINT_HIT_MORE, /* again */
+    JOINT_PROJECT   /* end of the frame: velocities alone */
 };
 
 struct joint_calls;

@@ -163,7 +163,7 @@ static bool prepare(struct rest *r)
 
     FOR_JOINTS(r, j)
     {
-        fit = joint_prepare(j, lightest) && fit;
+        fit = joint_prepare(j, &state_of(r, j)->drive, lightest) && fit;
     }
     r->joints.factored = fit && joint_factor(r);
     return fit;
@@ -310,22 +310,37 @@ static void refresh(const struct rest *r, struct joint *j)
     }
 }
 
+/* True if the last row's V became one that a limit asked for, but for the solver's rounding. */
+static bool at_limit(const struct joint_work *work, int64_t before_q40, int64_t after_q40)
+{
+    int64_t change_q40 = after_q40 - before_q40;
+    int64_t near_q40 = ((carom_abs(before_q40) + carom_abs(after_q40)) >> 12) + 16;
+
+    return work->law.lower &&
+           (change_q40 <= work->low_q40 + near_q40 || change_q40 >= work->high_q40 - near_q40);
+}
+
 /*
  * Book the work of the last row's impulse. All of a motor's counts. A spring's own does not, since
  * add_springs2 counts it. Limits and damping only take energy: if they gave any, the end of the
  * frame would take it back.
  */
-static void book_drive(struct rest *r, const struct joint *j)
+static void book_drive(struct rest *r, struct joint *j)
 {
-    const struct joint_work *work = &j->work;
+    struct joint_work *work = &j->work;
     struct fix_wide *sum = &r->bodies[j->a].solve.work2;
     int last = work->rows - 1;
     int64_t before_q40 = work->speed_q40[last], p_q40 = work->row_q40[last];
     int64_t after_q40 = joint_speed_q40(work, last);
 
     if (work->law.spring) {
-        p_q40 +=
-            work->elastic_q40 + joint_product_q40(work->half_stiff_q40, after_q40 - before_q40);
+        int64_t pull_q40 =
+            -work->elastic_q40 - joint_product_q40(work->half_stiff_q40, after_q40 - before_q40);
+
+        p_q40 -= pull_q40 + work->push_q40;
+        work->pulled_q30 += work->pull_q30;
+        /* what a limit stops has no second half: the limit would have to answer it */
+        work->second_q40 = work->halved && !at_limit(work, before_q40, after_q40) ? pull_q40 : 0;
     }
     if (work->law.motor) {
         bool limited = work->law.lower; /* and upper: then a limit may have given a part of it */

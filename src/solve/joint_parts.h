@@ -9,7 +9,10 @@
 #include "parts.h"
 
 /* Set levers and K^-1; `lightest` gives the unit of mass. */
-bool joint_prepare(struct joint *j, const struct body *lightest);
+bool joint_prepare(struct joint *j, const struct carom_joint_drive *drive,
+                   const struct body *lightest);
+/* Set the law of a spring, and how long it pulls. */
+void joint_prepare_spring(struct joint_work *work, const struct carom_joint_drive *d);
 /*
  * The change of V of row i of a by an impulse of 1 along row k of b, q30: an entry of K if a and b
  * are the same joint.
@@ -48,6 +51,12 @@ void joint_sum_up(struct rest *r);
 int64_t joint_sweep(struct joint *j, int32_t quiet);
 void joint_end(struct joint *j, const struct rest_sweep *sw);
 void joint_apply(struct rest *r, const struct joint *j);
+
+/* Bits by which a row's velocities are scaled. */
+static inline int joint_row_shift(const struct joint_work *work, int row)
+{
+    return joint_is_angular(work, row) ? work->length_bits - 22 : -work->down;
+}
 
 /* v, clamped to +-2^bits: keeps numbers that no world in range reaches from wrapping. */
 static inline int64_t joint_limited(int64_t v, int bits)

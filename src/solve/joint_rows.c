@@ -211,7 +211,8 @@ static void invert_k(struct joint_work *work)
     }
 }
 
-bool joint_prepare(struct joint *j, const struct body *lightest)
+bool joint_prepare(struct joint *j, const struct carom_joint_drive *drive,
+                   const struct body *lightest)
 {
     struct joint_work *work = &j->work;
 
@@ -234,6 +235,9 @@ bool joint_prepare(struct joint *j, const struct body *lightest)
     for (int i = 0; i < work->rows; i++) {
         work->speed_q40[i] = joint_speed_q40(work, i);
         work->change_q40[i] = work->wanted_q40[i] - (work->by_speed ? work->speed_q40[i] : 0);
+    }
+    if (work->held < work->rows && work->law.spring) {
+        joint_prepare_spring(work, drive);
     }
     return true;
 }
@@ -301,22 +305,19 @@ int64_t joint_speed_q40(const struct joint_work *work, int row)
 
 /* --------------------------------------------------------------------------- units */
 
-/* Bits by which a row's velocities are scaled. */
-static int row_shift(const struct joint_work *work, int row)
-{
-    return joint_is_angular(work, row) ? work->length_bits - 22 : -work->down;
-}
-
 int64_t joint_largest_q40(const struct joint *j)
 {
     const struct joint_work *work = &j->work;
     int64_t most = 0;
 
     for (int i = 0; i < work->rows; i++) {
-        int64_t v = i < work->held ? work->change_q40[i]
-                                   : carom_abs(work->speed_q40[i]) + carom_abs(work->least_q40);
+        int64_t v = work->change_q40[i];
 
-        v = carom_abs(fix_round_shift(v, row_shift(work, i)));
+        if (i >= work->held) {
+            v = carom_abs(work->speed_q40[i]) + carom_abs(work->least_q40) +
+                (work->law.spring ? carom_abs(work->spring_q40) : 0);
+        }
+        v = carom_abs(fix_round_shift(v, joint_row_shift(work, i)));
         most = v > most ? v : most;
     }
     return most;
@@ -327,9 +328,10 @@ static int32_t in_units(const struct joint_work *work, int row, int64_t v_q40, i
     int64_t most = (int64_t)1 << 60;
 
     v_q40 = v_q40 > most ? most : v_q40 < -most ? -most : v_q40;
-    return rest_within(
-        fix_round_shift(v_q40, row_shift(work, row) - unit < 2 ? row_shift(work, row) - unit : 2),
-        1 << 27);
+    return rest_within(fix_round_shift(v_q40, joint_row_shift(work, row) - unit < 2
+                                                  ? joint_row_shift(work, row) - unit
+                                                  : 2),
+                       1 << 27);
 }
 
 /* An impulse of a row in solver units. */
@@ -338,29 +340,11 @@ static int64_t impulse_in_units(const struct joint_work *work, int row, int64_t 
     struct fix_scaled by = work->lightest->def.inverse_mass;
     const int64_t most = (int64_t)1 << 58;
 
-    by.e += unit + row_shift(work, row) - JOINT_FINE_BITS;
+    by.e += unit + joint_row_shift(work, row) - JOINT_FINE_BITS;
     if (fix_bits((uint64_t)carom_abs(p_q40)) + 30 - by.e > 58) {
         return p_q40 < 0 ? -most : most;
     }
     return fix_mul_scaled(p_q40, by);
-}
-
-/*
- * The spring's part of the impulse that leads to the spring's own velocity: k / (k + M), M being
- * the impulse for a unit of velocity.
- */
-static int32_t softness_q30(const struct joint_work *work, int64_t stiff_q40)
-{
-    int last = work->rows - 1, bits = -2 * row_shift(work, last);
-    int64_t own_q40 = carom_shl(work->inverse[last][last], 10), k_q40;
-
-    own_q40 = fix_round_shift(own_q40, 30 - work->inverse_bits);
-    k_q40 = fix_mul_scaled(stiff_q40, work->lightest->def.inverse_mass);
-    if (fix_bits((uint64_t)k_q40) + bits > 60 || own_q40 == 0) {
-        return CAROM_ONE_Q30;
-    }
-    k_q40 = fix_round_shift(k_q40, bits);
-    return (int32_t)fix_mul_scaled(CAROM_ONE_Q30, fix_ratio(k_q40, k_q40 + own_q40));
 }
 
 /* Set a joint's velocities in solver units, and no impulses. */
@@ -378,12 +362,19 @@ void joint_begin(struct joint *j, const struct joint_state *state, const struct 
     if (work->held == work->rows) {
         return;
     }
-    law->low_v = in_units(work, last, work->speed_q40[last] + work->low_q40, sw->unit);
-    law->high_v = in_units(work, last, work->speed_q40[last] + work->high_q40, sw->unit);
+    if (work->stops) {
+        law->low_v = law->high_v = 0;
+    } else {
+        law->low_v = in_units(work, last, work->speed_q40[last] + work->low_q40, sw->unit);
+        law->high_v = in_units(work, last, work->speed_q40[last] + work->high_q40, sw->unit);
+    }
     law->motor_v = in_units(work, last, state->drive.motor_speed_q40, sw->unit);
     law->most = impulse_in_units(work, last, work->most_q40, sw->unit);
     law->spring_v = in_units(work, last, work->speed_q40[last] + work->spring_q40, sw->unit);
-    law->soft_q30 = work->law.spring ? softness_q30(work, work->stiff_q40) : 0;
+    if (law->spring) {
+        law->push = fix_mul_q30(impulse_in_units(work, last, work->push_q40, sw->unit),
+                                CAROM_ONE_Q30 - law->soft_q30);
+    }
 }
 
 void joint_load(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw)
@@ -399,7 +390,7 @@ static int64_t impulse_q40(const struct joint_work *work, int row, int unit)
     const int64_t most = (int64_t)1 << 57;
     struct fix_scaled by = work->lightest->def.mass;
 
-    by.e += JOINT_FINE_BITS - unit - row_shift(work, row);
+    by.e += JOINT_FINE_BITS - unit - joint_row_shift(work, row);
     if (fix_bits((uint64_t)carom_abs(work->impulse[row])) + 30 - by.e > 57) {
         return work->impulse[row] < 0 ? -most : most;
     }

@@ -117,7 +117,7 @@ static int64_t by_law(const struct joint_work *work, int64_t now, int32_t v)
         impulse = LEADS_TO(law->motor_v);
         impulse = impulse > law->most ? law->most : impulse < -law->most ? -law->most : impulse;
     } else if (law->spring) {
-        impulse = fix_mul_q30(LEADS_TO(law->spring_v), law->soft_q30);
+        impulse = law->push + fix_mul_q30(LEADS_TO(law->spring_v), law->soft_q30);
     }
     if (law->lower) {
         least = LEADS_TO(law->low_v);

@@ -22,6 +22,9 @@ static void begin(struct step *s)
     for (uint32_t i = 0; i < list->count; i++) {
         struct joint_state *state = &list->states[i];
 
+        list->joints[i].work.pulled_q30 = 0;
+        list->joints[i].work.second_q40 = 0;
+        list->joints[i].work.pull_most_q30 = CAROM_ONE_Q30;
         if (list->joints[i].used && connect_answers(s, list->joints[i].a)) {
             memset(&state->push, 0, sizeof state->push);
             memset(&state->moment, 0, sizeof state->moment);
@@ -94,23 +97,6 @@ static uint32_t connected(const struct step *s)
 /* ---------------------------------------------------------------------------- end */
 
 /*
- * True if no contact held the bodies of a group, and all of them are awake and moved on their
- * paths.
- */
-static bool group_is_free(const struct step *s, uint16_t group)
-{
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        const struct body *b = &s->w->bodies[i];
-
-        if (b->def.mesh && b->def.joined == group &&
-            (!step_active(s, i) || b->clock.contact != BODY_FLIES || b->clock.stands)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/*
  * Make velocities agree with the joints at the bodies' final places, in groups that nothing
  * touched.
  */
@@ -122,7 +108,7 @@ static void project(struct step *s)
     for (uint32_t i = 0; i < list->count; i++) {
         struct joint *j = &list->joints[i];
 
-        j->chosen = joint_holds(list, i) && group_is_free(s, s->w->bodies[j->a].def.joined);
+        j->chosen = joint_holds(list, i) && connect_group_is_free(s, s->w->bodies[j->a].def.joined);
         any = any || j->chosen;
         place_sides(s, j);
     }

@@ -30,6 +30,11 @@ static inline bool connect_is_member(const struct step *s, uint16_t body)
     return body != JOINT_WORLD && s->w->bodies[body].clock.member;
 }
 
+/*
+ * True if no contact held the bodies of a group, and all of them are awake and moved on their
+ * paths.
+ */
+bool connect_group_is_free(const struct step *s, uint16_t group);
 /* See struct step_joint_calls. */
 int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30);
 bool connect_measure(struct step *s, enum joint_solve solve);

@@ -393,7 +393,8 @@ static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
 
     *held = true;
     for (int round = 0; round < STEP_JOINT_ROUNDS; round++) {
-        enum joint_solve solve = s->now_q30 > 0 ? JOINT_HIT : first ? JOINT_FRAME : JOINT_MORE;
+        enum joint_solve solve = s->now_q30 > 0 ? (first ? JOINT_HIT : JOINT_HIT_MORE)
+                                                : (first ? JOINT_FRAME : JOINT_MORE);
         int result;
 
         if (w->joint_steps && !w->joint_steps->measure(s, solve) && round > 0) {
@@ -423,7 +424,7 @@ int step_solve(struct step *s, bool warm)
     int result = solve_rounds(s, warm, true, &held);
 
     if (!held) { /* a failure ends the rounds before that */
-        (void)w->joint_steps->measure(s, s->now_q30 > 0 ? JOINT_HIT : JOINT_MORE);
+        (void)w->joint_steps->measure(s, s->now_q30 > 0 ? JOINT_HIT_MORE : JOINT_MORE);
         if (w->joint_steps->yield(s)) {
             result = solve_rounds(s, false, false, &held);
         }

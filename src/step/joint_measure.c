@@ -23,18 +23,30 @@ static int32_t own_slice(const struct body *b, const struct body_state *state, i
     return slice_of_spin(&spin, left_q30) >> (2 * b->clock.shorter);
 }
 
-/* Longest slice by the kinematic bodies that lead a group. */
-static int32_t led_slice(const struct step *s, uint16_t group, int32_t left_q30)
+/* Longest slice by the pull of a spring: to its end, or to the end of the next one. */
+static int32_t pulled_slice(const struct step *s, const struct joint *j, int32_t left_q30)
+{
+    int32_t most_q30 = j->work.pulled_q30 - s->now_q30;
+
+    most_q30 = most_q30 < STEP_SLICE_MIN_Q30 ? j->work.pull_most_q30 : most_q30;
+    return most_q30 < left_q30 ? most_q30 : left_q30;
+}
+
+/* Longest slice by the springs of a group, and by the kinematic bodies that lead it. */
+static int32_t drive_slice(const struct step *s, uint16_t group, int32_t left_q30)
 {
     const struct joint_list *list = &s->w->rest.joints;
 
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
-        const struct body *led = joint_holds(list, i) ? connect_led_by(s, j) : NULL;
+        const struct body *led;
 
-        if (led && s->w->bodies[j->a].def.joined == group) {
-            left_q30 = slice_of_spin(&led->def.extra->route.spin, left_q30);
+        if (!joint_holds(list, i) || s->w->bodies[j->a].def.joined != group) {
+            continue;
         }
+        led = connect_led_by(s, j);
+        left_q30 = led ? slice_of_spin(&led->def.extra->route.spin, left_q30) : left_q30;
+        left_q30 = list->states[i].drive.spring ? pulled_slice(s, j, left_q30) : left_q30;
     }
     return left_q30;
 }
@@ -42,7 +54,7 @@ static int32_t led_slice(const struct step *s, uint16_t group, int32_t left_q30)
 int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
 {
     uint16_t group = s->w->bodies[i].def.joined;
-    int32_t least_q30 = led_slice(s, group, left_q30);
+    int32_t least_q30 = drive_slice(s, group, left_q30);
 
     for (uint32_t k = 0; k < s->w->body_count; k++) {
         if (s->w->bodies[k].def.mesh && s->w->bodies[k].def.joined == group && step_active(s, k) &&
@@ -52,6 +64,19 @@ int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
         }
     }
     return least_q30;
+}
+
+bool connect_group_is_free(const struct step *s, uint16_t group)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        const struct body *b = &s->w->bodies[i];
+
+        if (b->def.mesh && b->def.joined == group &&
+            (!step_active(s, i) || b->clock.contact != BODY_FLIES || b->clock.stands)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /* ----------------------------------------------------------------------- measure */
@@ -113,30 +138,6 @@ static int64_t per_frame(int64_t v_q40, int32_t time_q30)
     return fix_mul_scaled(v_q40, by);
 }
 
-/*
- * Measure a spring over the frame: half of the coordinate's change is added to where it is now.
- * False if it has neither stiffness nor damping.
- */
-static bool measure_spring(struct joint_work *work, const struct carom_joint_drive *d,
-                           int64_t now_q40, int64_t rate_q40)
-{
-    int64_t off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
-    struct fix_wide pull = fix_wide_mul(d->stiffness_q40, off_q40);
-    struct fix_scaled loose; /* velocity that leads to no pull: q80 over q40 */
-
-    work->half_stiff_q40 = d->stiffness_q40 / 2;
-    work->stiff_q40 = work->half_stiff_q40 + d->damping_q40;
-    if (work->stiff_q40 == 0) {
-        return false;
-    }
-    loose = fix_wide_over(&pull, work->stiff_q40);
-    work->spring_q40 = -rate_q40 - fix_mul_scaled(1, loose);
-    work->elastic_q40 = joint_product_q40(d->stiffness_q40, off_q40) +
-                        joint_product_q40(work->half_stiff_q40, rate_q40);
-    work->least_q40 += carom_abs(work->spring_q40);
-    return true;
-}
-
 /* Time in which a joint that is off comes back: the slice, but no less than STEP_RECOVERY_MIN_Q30. */
 static int32_t recovery(int32_t slice_q30)
 {
@@ -153,18 +154,51 @@ static int64_t to_limit(int64_t room_q40, bool beyond, int64_t change_q40, int32
            per_frame(change_q40, time_q30);
 }
 
-/* Measure limits, motor and spring of a coordinate that changes by change_q40 in the slice. */
-static void measure_drive(struct joint *j, const struct joint_state *state, int64_t now_q40,
-                          int64_t change_q40, int32_t slice_q30, enum joint_solve solve)
+/*
+ * Measure a spring: it pulls from where it left off to the end of the slice. In a group that flies it
+ * gives a half of its impulse at the start of that time, and a half at the end. So it moves its
+ * bodies as far as their weight does, which bends their paths; bodies that touch take their weight at
+ * the start, too.
+ */
+static void measure_spring(const struct step *s, struct joint *j, const struct joint_state *state,
+                           int32_t slice_q30, enum joint_solve solve)
+{
+    struct joint_work *work = &j->work;
+    bool flies = connect_group_is_free(s, s->w->bodies[j->a].def.joined);
+
+    if (work->pulled_q30 == 0) {
+        work->pulled_q30 = s->now_q30; /* the group may be awake only now */
+    }
+    work->pull_q30 = solve == JOINT_FRAME || solve == JOINT_HIT
+                         ? fix_larger(s->now_q30 + slice_q30 - work->pulled_q30, 0)
+                         : 0;
+    work->ahead_q30 = fix_larger(work->pulled_q30 - s->now_q30, 0);
+    work->push_q40 = work->pull_q30 > 0 || !flies || solve == JOINT_PROJECT ? work->second_q40 : 0;
+    work->halved = flies;
+    work->law.spring = state->drive.spring && (work->pull_q30 > 0 || work->push_q40 != 0);
+}
+
+/*
+ * Measure limits, motor and spring of a coordinate that changes by change_q40 in the slice. A motor
+ * acts once a frame, a spring in each slice: the pull of a stiff one changes on the way. At the end
+ * of the frame a limit that is closer than close_q40 stops what moves on to it.
+ */
+static void measure_drive(const struct step *s, struct joint *j, const struct joint_state *state,
+                          int64_t now_q40, int64_t change_q40, int32_t slice_q30, int64_t close_q40,
+                          enum joint_solve solve)
 {
     const struct carom_joint_drive *d = &state->drive;
     struct joint_work *work = &j->work;
     int32_t time_q30 = slice_q30 > STEP_MEASURED_MIN_Q30 ? slice_q30 : STEP_MEASURED_MIN_Q30;
 
-    work->law.lower = work->law.upper = d->limited && solve != JOINT_PROJECT;
+    work->law.lower = work->law.upper = d->limited;
     work->law.motor = d->motor && solve == JOINT_FRAME;
     work->least_q40 = 0;
-    if (d->limited) {
+    work->stops = solve == JOINT_PROJECT;
+    if (d->limited && work->stops) {
+        work->law.lower = now_q40 - close_q40 < carom_shl(d->lower_q32, 8);
+        work->law.upper = now_q40 + close_q40 > carom_shl(d->upper_q32, 8);
+    } else if (d->limited) {
         int64_t below_q40 = carom_shl(d->lower_q32, 8) - now_q40;
         int64_t above_q40 = carom_shl(d->upper_q32, 8) - now_q40;
 
@@ -178,8 +212,9 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
         work->most_q40 = d->motor_most_q40;
         work->least_q40 += carom_abs(d->motor_speed_q40);
     }
-    work->law.spring = d->spring && solve == JOINT_FRAME &&
-                       measure_spring(work, d, now_q40, per_frame(change_q40, time_q30));
+    measure_spring(s, j, state, slice_q30, solve);
+    work->off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
+    work->rate_q40 = per_frame(change_q40, time_q30);
 }
 
 /* Size of a row's change at the farthest point of body a, in units, q40. */
@@ -259,7 +294,7 @@ static int64_t measure_held(const struct step *s, struct joint *j, const struct 
  */
 static int64_t measure_last(const struct step *s, struct joint *j, const struct joint_state *state,
                             const struct joint_error *at, const struct joint_error *to,
-                            int32_t slice_q30, enum joint_solve solve)
+                            int32_t slice_q30, int64_t skin_q40, enum joint_solve solve)
 {
     const struct carom_joint_drive *d = &state->drive;
     int64_t now_q40 = at->coordinate_q40, change_q40 = to->coordinate_q40 - now_q40, off_q40;
@@ -267,7 +302,7 @@ static int64_t measure_last(const struct step *s, struct joint *j, const struct 
     if (j->kind == CAROM_JOINT_HINGE) {
         change_q40 = joint_turned_q40(now_q40, to->coordinate_q40);
     }
-    measure_drive(j, state, now_q40, change_q40, slice_q30, solve);
+    measure_drive(s, j, state, now_q40, change_q40, slice_q30, skin_q40 / STEP_LEFT_DIVISOR, solve);
     if (!d->limited || j->work.by_speed) {
         return 0;
     }
@@ -306,7 +341,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
         memset(work->wanted_q40, 0, sizeof work->wanted_q40);
     }
     if (work->held < work->rows) {
-        last_q40 = measure_last(s, j, state, &at, &to, slice_q30, solve);
+        last_q40 = measure_last(s, j, state, &at, &to, slice_q30, skin_q40, solve);
     }
     work->torn = !work->by_speed && held_q40 > STEP_TORN_SKINS * skin_q40;
     return (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / STEP_LEFT_DIVISOR;
