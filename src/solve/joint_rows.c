@@ -372,7 +372,12 @@ void joint_begin(struct joint *j, const struct joint_state *state, const struct 
     law->most = impulse_in_units(work, last, work->most_q40, sw->unit);
     law->spring_v = in_units(work, last, work->speed_q40[last] + work->spring_q40, sw->unit);
     if (law->spring) {
-        law->push = fix_mul_q30(impulse_in_units(work, last, work->push_q40, sw->unit),
+        int64_t push_q40 = work->push_q40;
+
+        if (law->soft_q30 == 0) {
+            push_q40 -= work->elastic_q40 + joint_product_q40(work->stiff_q40, work->rate_q40);
+        }
+        law->push = fix_mul_q30(impulse_in_units(work, last, push_q40, sw->unit),
                                 CAROM_ONE_Q30 - law->soft_q30);
     }
 }

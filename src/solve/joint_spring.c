@@ -37,6 +37,10 @@ static void stiffen(struct joint_work *work, const struct carom_joint_drive *d)
     work->stiff_q40 = work->half_stiff_q40 + fix_mul_q30(d->damping_q40, work->pull_q30);
 }
 
+/*
+ * The velocity that leads to no pull is off / t, which is out of all proportion for a short time t. So a pull that
+ * is short and soft does not depend on the velocity after the solve: soft is 0.
+ */
 void joint_prepare_spring(struct joint_work *work, const struct carom_joint_drive *d)
 {
     struct fix_wide pull;
@@ -63,15 +67,18 @@ void joint_prepare_spring(struct joint_work *work, const struct carom_joint_driv
         work->stiff_q40 -= work->half_stiff_q40 / 2;
         work->half_stiff_q40 -= work->half_stiff_q40 / 2;
     }
-    work->spring_q40 = work->elastic_q40 = 0;
-    work->law.soft_q30 = 0;
-    if (work->stiff_q40 == 0) {
-        return;
-    }
-    pull = fix_wide_mul(stiffness_q40, work->off_q40);
-    loose = fix_wide_over(&pull, work->stiff_q40);
-    work->spring_q40 = -work->rate_q40 - fix_mul_scaled(1, loose);
     work->elastic_q40 = joint_product_q40(stiffness_q40, work->off_q40) +
                         joint_product_q40(work->half_stiff_q40, work->rate_q40);
     work->law.soft_q30 = share_q30(work, work->stiff_q40, work->stiff_q40);
+    work->spring_q40 = 0;
+    if (work->pull_q30 < JOINT_PULL_LEAST_Q30 / 2 && work->law.soft_q30 <= JOINT_SWING_Q30) {
+        work->stiff_q40 -= work->half_stiff_q40;
+        work->half_stiff_q40 = 0;
+        work->law.soft_q30 = 0;
+    }
+    if (work->law.soft_q30 > 0) {
+        pull = fix_wide_mul(stiffness_q40, work->off_q40);
+        loose = fix_wide_over(&pull, work->stiff_q40);
+        work->spring_q40 = -work->rate_q40 - fix_mul_scaled(1, loose);
+    }
 }
