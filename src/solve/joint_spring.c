@@ -38,8 +38,8 @@ static void stiffen(struct joint_work *work, const struct carom_joint_drive *d)
 }
 
 /*
- * The velocity that leads to no pull is off / t, which is out of all proportion for a short time t. So a pull that
- * is short and soft does not depend on the velocity after the solve: soft is 0.
+ * The velocity that leads to no pull is off / t, which is out of proportion for a short time t. So a
+ * pull that is short and soft does not depend on the velocity after the solve: soft is 0.
  */
 void joint_prepare_spring(struct joint_work *work, const struct carom_joint_drive *d)
 {
