@@ -3,64 +3,10 @@
  * Springs of joints: weights on them by the closed form, what presses against a limit, a slider that
  * swings many times a frame; and what hangs on a body that left the world.
  */
-#include <string.h>
-
 #include "body/body.h"
-#include "carom_joint.h"
-#include "lib/one_world.h"
+#include "lib/jointed.h"
 #include "lib/real.h"
-#include "lib/shapes.h"
 #include "lib/test.h"
-
-#define CAPS 4, 4, 24, 32, 0, 32, 3, 1
-#define UNIT ((int64_t)1 << 32)
-#define ONE  ((int64_t)1 << 40)
-#define FALL (ONE / 367) /* 9.81 m / s^2 at 60 frames */
-
-static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
-static struct shape box;
-static struct carom_body_def def;
-
-/* A box with sides of 1, 1/2 and 1/4. */
-static void setup(int64_t gravity_q40)
-{
-    struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -gravity_q40}}};
-
-    shape_box(&box, 12, 4096, 2048, 1024);
-    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
-    memset(&def, 0, sizeof def);
-    def.mesh = &box.mesh;
-    def.mass_q20 = 1 << 20;
-}
-
-static int add(int64_t x, int64_t y, int64_t z)
-{
-    int body;
-
-    def.position = (carom_v3_q32){{x, y, z}};
-    body = carom_body_add(world, &def);
-    CHECK_AT_LEAST(body, 0);
-    return body;
-}
-
-/* A slider along z. */
-static struct carom_joint_def slider(int a, int b, int64_t x, int64_t y, int64_t z)
-{
-    struct carom_joint_def j;
-
-    memset(&j, 0, sizeof j);
-    j.kind = CAROM_JOINT_SLIDER;
-    j.a = a;
-    j.b = b;
-    j.anchor = (carom_v3_q32){{x, y, z}};
-    j.axis.c[2] = CAROM_ONE_Q30;
-    return j;
-}
-
-static void step(void)
-{
-    CHECK_AT_LEAST(carom_world_step(world), CAROM_OK);
-}
 
 /*
  * A weight on a spring that carries three quarters of it: x = -(g / 4 w^2) (1 - cos w t). With the
@@ -80,7 +26,7 @@ static void test_weight(void)
 
         setup(FALL);
         body = add(0, 0, 0);
-        j = slider(body, CAROM_WORLD, 0, 0, 0);
+        j = joint(CAROM_JOINT_SLIDER, body, CAROM_WORLD, 0, 0, 0);
         j.drive.spring = true;
         j.drive.stiffness_q40 = real_round(w[i] * w[i] * (double)ONE);
         j.drive.rest_q32 = real_round(3 * most * (double)UNIT);
@@ -90,7 +36,7 @@ static void test_weight(void)
 
             before = now;
             now = next;
-            step();
+            steps(1);
             x = (double)state_of(body).position.c[2] / (double)UNIT;
             /* the phase is off by up to 0.6 % */
             CHECK_AT_MOST(real_abs(x + most * (1 - now)), most * (0.02 + 0.01 * t * w[i]));
@@ -110,20 +56,19 @@ static void test_presses(void)
     setup(0);
     low = add(0, 0, 0);
     high = add(0, 0, UNIT);
-    j = slider(low, CAROM_WORLD, 0, 0, 0);
+    j = joint(CAROM_JOINT_SLIDER, low, CAROM_WORLD, 0, 0, 0);
     j.drive.spring = true;
     j.drive.stiffness_q40 = ONE / 100;
     j.drive.rest_q32 = UNIT / 8;
     CHECK_EQ(carom_joint_add(world, &j), 0);
-    j = slider(high, CAROM_WORLD, 0, 0, UNIT);
+    j = joint(CAROM_JOINT_SLIDER, high, CAROM_WORLD, 0, 0, UNIT);
     j.drive.limited = true;
     j.drive.lower_q32 = -UNIT;
     CHECK_EQ(carom_joint_add(world, &j), 1);
-    j = slider(high, low, 0, 0, UNIT / 2);
-    j.kind = CAROM_JOINT_FIXED;
+    j = joint(CAROM_JOINT_FIXED, high, low, 0, 0, UNIT / 2);
     CHECK_EQ(carom_joint_add(world, &j), 2);
     for (int i = 0; i < 30; i++) {
-        step();
+        steps(1);
         CHECK_LESS(carom_abs(state_of(low).position.c[2]), UNIT >> 14);
         CHECK_LESS(carom_abs(state_of(low).velocity.c[2]), ONE >> 20);
         CHECK_LESS(carom_abs(state_of(high).velocity.c[2]), ONE >> 20);
@@ -142,18 +87,15 @@ static void test_stiff(void)
     setup(0);
     a = add(0, 0, 0);
     b = add(8 * UNIT, 8 * UNIT, 0);
-    j = slider(a, b, 8 * UNIT, 0, 0);
+    j = joint(CAROM_JOINT_SLIDER, a, b, 8 * UNIT, 0, 0);
     j.drive.spring = true;
     j.drive.stiffness_q40 = ONE;
     j.drive.rest_q32 = UNIT / 2;
     CHECK_EQ(carom_joint_add(world, &j), 0);
     for (int i = 0; i < 100; i++) {
-        struct carom_joint_state s;
-
-        step();
-        CHECK_EQ(carom_joint_get(world, 0, &s), CAROM_OK);
-        CHECK_AT_LEAST(s.coordinate_q32, -UNIT >> 3);
-        CHECK_AT_MOST(s.coordinate_q32, UNIT + (UNIT >> 3));
+        steps(1);
+        CHECK_AT_LEAST(joint_of(0).coordinate_q32, -UNIT >> 3);
+        CHECK_AT_MOST(joint_of(0).coordinate_q32, UNIT + (UNIT >> 3));
     }
 }
 
@@ -191,8 +133,7 @@ static void test_hangs_on_gone(void)
     setup(0);
     gone = add(end - UNIT / 64, 0, 0);
     left = add(end - 2 * UNIT, 0, 0);
-    j = slider(left, gone, end - UNIT, 0, 0);
-    j.kind = CAROM_JOINT_BALL;
+    j = joint(CAROM_JOINT_BALL, left, gone, end - UNIT, 0, 0);
     CHECK_EQ(carom_joint_add(world, &j), 0);
     last = add(end - 4 * UNIT, 0, 0);
     j.a = last;
@@ -202,14 +143,12 @@ static void test_hangs_on_gone(void)
     now = state_of(gone);
     now.velocity.c[0] = now.velocity.c[1] = ONE / 32;
     CHECK_EQ(carom_body_set(world, gone, &now), CAROM_OK);
-    for (int i = 0; i < 4; i++) {
-        step();
-    }
+    steps(4);
     CHECK(state_of(gone).out);
     first = energy_of(left) + energy_of(last);
     CHECK_MORE(first, 0.0);
     for (int i = 0; i < 100; i++) {
-        step();
+        steps(1);
         CHECK_AT_MOST(real_abs(energy_of(left) + energy_of(last) - first), first / 100);
     }
 }

@@ -40,7 +40,7 @@ struct joint_law {
     int32_t motor_v;
     int32_t spring_v; /* V at which the spring has no impulse */
     int32_t soft_q30; /* the spring's impulse over the one that leads to spring_v */
-    int64_t push;     /* the second half of an earlier pull */
+    int64_t push;     /* whatever V: the second half of an earlier pull, and a short pull */
     int64_t most;     /* of the motor's impulse */
 };
 

@@ -325,13 +325,11 @@ int64_t joint_largest_q40(const struct joint *j)
 
 static int32_t in_units(const struct joint_work *work, int row, int64_t v_q40, int unit)
 {
-    int64_t most = (int64_t)1 << 60;
+    const int64_t most = (int64_t)1 << 60;
+    int shift = joint_row_shift(work, row) - unit;
 
     v_q40 = v_q40 > most ? most : v_q40 < -most ? -most : v_q40;
-    return rest_within(fix_round_shift(v_q40, joint_row_shift(work, row) - unit < 2
-                                                  ? joint_row_shift(work, row) - unit
-                                                  : 2),
-                       1 << 27);
+    return rest_within(fix_round_shift(v_q40, shift < 2 ? shift : 2), 1 << 27);
 }
 
 /* An impulse of a row in solver units. */
