@@ -85,7 +85,8 @@ struct joint_work {
     int64_t low_q40, high_q40, most_q40, least_q40;
     /*
      * a spring: by how much it is off its rest, and the rate of that on the present paths; a solve
-     * lets it pull for a part of the frame that begins `ahead` from now
+     * lets it pull for a part of the frame that begins `ahead` from now. The step measures these for
+     * the whole slice, and joint_prepare_spring shortens them
      */
     int64_t off_q40, rate_q40;
     int32_t ahead_q30, pull_q30;

@@ -155,10 +155,10 @@ static int64_t to_limit(int64_t room_q40, bool beyond, int64_t change_q40, int32
 }
 
 /*
- * Measure a spring: it pulls from where it left off to the end of the slice. In a group that flies it
- * gives a half of its impulse at the start of that time, and a half at the end. So it moves its
- * bodies as far as their weight does, which bends their paths; bodies that touch take their weight at
- * the start, too.
+ * Measure a spring: it pulls from where it left off to the end of the slice. In a group that flies
+ * it gives a half of its impulse at the start of that time, and a half at the end. So it moves its
+ * bodies as far as their weight does, which bends their paths; bodies that touch take their weight
+ * at the start, too.
  */
 static void measure_spring(const struct step *s, struct joint *j, const struct joint_state *state,
                            int32_t slice_q30, enum joint_solve solve)
@@ -181,7 +181,8 @@ static void measure_spring(const struct step *s, struct joint *j, const struct j
 /*
  * Measure limits, motor and spring of a coordinate that changes by change_q40 in the slice. A motor
  * acts once a frame, a spring in each slice: the pull of a stiff one changes on the way. At the end
- * of the frame a limit that is closer than close_q40 stops what moves on to it.
+ * of the frame a limit that is closer than close_q40, in the coordinate's unit, stops what moves on
+ * to it.
  */
 static void measure_drive(const struct step *s, struct joint *j, const struct joint_state *state,
                           int64_t now_q40, int64_t change_q40, int32_t slice_q30, int64_t close_q40,
