@@ -330,20 +330,10 @@ static bool is_awake(const struct run *run)
     return false;
 }
 
-/* Fold a frame's results, the events of its step included. */
+/* Fold a frame's results. */
 static uint64_t fold_frame(struct run *run, int frame, int status, uint64_t digest)
 {
-    const struct carom_event *events;
-    int count = carom_events(run->world, &events);
-
-    digest = play_fold(digest, carom_world_hash(run->world));
-    digest = play_fold(digest, (uint64_t)status);
-    for (int i = 0; i < count; i++) {
-        digest = play_fold(digest, (uint64_t)events[i].kind << 32 | (uint64_t)events[i].a << 16 |
-                                       events[i].b);
-        digest = play_fold(digest, (uint64_t)events[i].speed_q40);
-        digest = play_fold(digest, (uint64_t)events[i].impulse_q40);
-    }
+    digest = play_fold_step(run->world, status, digest);
     if (run->play->ask && wanted.asks) {
         expect(run, frame, run->play->ask(run->world, &run->scene, frame, &digest), "ask");
     }

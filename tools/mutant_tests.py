@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The tests that judge mutants: the time of each, and the lines of src/ that it runs.
 
-They are the plays, each test of tests.elf by itself, host programs, and the suites of tests.elf with the sanitizers
+They are the plays, random worlds, each test of tests.elf by itself, host programs, and the suites of tests.elf with the sanitizers
 and the assertions. A build with the counters of `make coverage`
 tells once for each commit which lines a test runs: a change in any other line it cannot notice.
 """
@@ -55,7 +55,7 @@ def clone(number):
         subprocess.run(["git", "clone", "--quiet", "--no-local", ROOT, folder], check=True)
     subprocess.run(["git", "fetch", "--quiet", "origin", "HEAD"], cwd=folder, check=True)
     subprocess.run(["git", "reset", "--quiet", "--hard", "FETCH_HEAD"], cwd=folder, check=True)
-    make(folder, *("build/host/%s.elf" % name for name in ("tests", "matrix", *PROGRAMS)), check=True)
+    make(folder, *("build/host/%s.elf" % name for name in ("tests", "matrix", "worlds", *PROGRAMS)), check=True)
     make(folder, "DEBUG=1", "build/" + DEBUG, check=True)
     return folder
 
@@ -63,7 +63,7 @@ def clone(number):
 def names(folder):
     """The tests; a test of tests.elf prints its name on a line of its own."""
     said = subprocess.run(["build/host/tests.elf"], cwd=folder, stdout=subprocess.PIPE, text=True, check=True).stdout
-    return ["matrix.elf", *(name + ".elf" for name in PROGRAMS), *("tests.elf " + name for name in re.findall(r"^ok \d+ - (\S+)", said, re.M))]
+    return ["matrix.elf", "worlds.elf", *(name + ".elf" for name in PROGRAMS), *("tests.elf " + name for name in re.findall(r"^ok \d+ - (\S+)", said, re.M))]
 
 
 def lines(folder, counts, program):
@@ -85,7 +85,7 @@ def lines(folder, counts, program):
 
 def measured(folder):
     """[name, seconds, lines that it runs] of each test, and {program: lines that could run}."""
-    make(folder, "COVERED=1", *("%s%s.elf" % (COUNTED, name) for name in ("tests", "matrix", *PROGRAMS)), check=True)
+    make(folder, "COVERED=1", *("%s%s.elf" % (COUNTED, name) for name in ("tests", "matrix", "worlds", *PROGRAMS)), check=True)
     rows, executable, counts = [], {}, os.path.join(folder, "build", "counts")
     for test in (Test(name, 0, {}, {}) for name in names(folder)):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime

@@ -16,6 +16,22 @@ uint64_t play_fold(uint64_t digest, uint64_t number)
     return digest;
 }
 
+uint64_t play_fold_step(const struct carom_world *world, int status, uint64_t digest)
+{
+    const struct carom_event *events;
+    int count = carom_events(world, &events);
+
+    digest = play_fold(digest, carom_world_hash(world));
+    digest = play_fold(digest, (uint64_t)status);
+    for (int i = 0; i < count; i++) {
+        digest = play_fold(digest, (uint64_t)events[i].kind << 32 | (uint64_t)events[i].a << 16 |
+                                       events[i].b);
+        digest = play_fold(digest, (uint64_t)events[i].speed_q40);
+        digest = play_fold(digest, (uint64_t)events[i].impulse_q40);
+    }
+    return digest;
+}
+
 /* ---------------------------------------------------------------- before a frame */
 
 /* A number in [-range, range] that differs for each frame, body and axis. */

@@ -24,5 +24,7 @@ extern const struct play plays[PLAYS];
 /* 64-bit FNV-1a of a number's bytes, lowest first, continued from the last digest. */
 #define PLAY_DIGEST 0xcbf29ce484222325u
 uint64_t play_fold(uint64_t digest, uint64_t number);
+/* Fold the state after a step, its status and its events. */
+uint64_t play_fold_step(const struct carom_world *world, int status, uint64_t digest);
 
 #endif
