@@ -127,7 +127,57 @@ static void leave(void)
     CHECK_MORE(left, WORLDS);
 }
 
+/*
+ * A box rides on a kinematic plate and leaves the world there. The plate stops: by itself where it was led to, or by a call. Nothing is
+ * awake any more, and the world can be saved and loaded.
+ */
+static void ride_out(void)
+{
+    static uint8_t bytes[4096];
+
+    shape_box(&box, 12, 4096, 3000, 2000);
+    shape_box(&plate, 10, 6144, 6144, 512);
+    for (int to = 0; to < 2; to++) {
+        struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -FRAME / 367}}};
+        struct carom_body_def def = {.mesh = &plate.mesh, .kinematic = true};
+        struct carom_body_state state;
+        int size, frame = 0;
+
+        CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
+        def.position.c[0] = EDGE - 2 * UNIT;
+        def.velocity.c[0] = to ? 0 : FRAME / 64;
+        def.friction_q16 = 1 << 15;
+        CHECK_EQ(carom_body_add(world, &def), 0);
+        def.mesh = &box.mesh;
+        def.kinematic = false;
+        def.position.c[0] = EDGE - UNIT / 4;
+        def.position.c[2] = UNIT / 4 + UNIT * 1000 / 4096 + UNIT / 4096;
+        def.velocity.c[0] = FRAME / 64;
+        CHECK_EQ(carom_body_add(world, &def), 1);
+        while (frame++ < 40 && !state_of(1).out) {
+            struct carom_body_state at = state_of(0);
+            const struct carom_pose pose = {{{at.position.c[0] + UNIT / 64, 0, 0}}, at.rotation};
+
+            if (to) {
+                CHECK_EQ(carom_body_move_to(world, 0, &pose), CAROM_OK);
+            }
+            steps(1);
+        }
+        CHECK(state_of(1).out);
+        state = state_of(0);
+        memset(&state.velocity, 0, sizeof state.velocity);
+        CHECK_EQ(carom_body_set(world, 0, &state), CAROM_OK);
+        for (int later = 0; later < 3; later++) {
+            size = carom_snapshot_save(world, bytes, sizeof bytes);
+            CHECK_MORE(size, 0);
+            CHECK_EQ(carom_snapshot_load(world, bytes, (size_t)size), CAROM_OK);
+            steps(1);
+        }
+    }
+}
+
 const struct test tests_world_edge[] = {
     {"world_edge/leave", leave},
+    {"world_edge/ride_out", ride_out},
     {0},
 };

@@ -157,7 +157,76 @@ static void test_passing(void)
     CHECK(boxes_overlap(world, A, B));
 }
 
+/* A bar falls flat on two cubes that sleep apart from each other: both wake in the frame of the hit. */
+static void test_both(void)
+{
+    struct carom_world *world = begin(16);
+    struct carom_body_def def = boxes_def(BAR, 0, 0, 350);
+    int woken = 0;
+
+    boxes_make(BAR, 300, 50, 20);
+    CHECK_EQ(add_cube(world, -250, 200), A);
+    CHECK_EQ(add_cube(world, 250, 200), B);
+    boxes_step(world, 35);
+    CHECK(boxes_state(world, A).asleep && boxes_state(world, B).asleep);
+    def.position.c[2] += BOXES_Q32(100);
+    CHECK_EQ(boxes_add(world, &def), C);
+    for (int i = 0; i < 40 && woken == 0; i++) {
+        boxes_step(world, 1);
+        woken = boxes_events(world, CAROM_EVENT_WAKE, A, 0);
+        CHECK_EQ(boxes_events(world, CAROM_EVENT_WAKE, B, 0), woken);
+    }
+    CHECK_EQ(woken, 1);
+}
+
+/*
+ * B slides over A without friction and leaves the world there. Nothing moves A any more, so it falls asleep at once, and keeps what
+ * touched it. A cube that falls on A wakes A, and not B, which has gone; only then do A and B end to touch.
+ */
+static void test_left_behind(void)
+{
+    const int edge = 4096 * 1024;
+    struct carom_world *world = begin(16);
+    struct carom_body_def def = boxes_def(FLAT, edge, 0, 0);
+    struct carom_body_state out;
+    int ended = 0;
+
+    boxes_make(BAR, 1000, 200, 20);
+    def.stationary = true;
+    CHECK_EQ(carom_body_remove(world, GROUND), CAROM_OK);
+    CHECK_EQ(boxes_add(world, &def), GROUND);
+    def = boxes_def(BAR, edge - 500, 0, 120);
+    CHECK_EQ(boxes_add(world, &def), A);
+    def = boxes_def(CUBE, edge - 300, 0, 240);
+    def.friction_q16 = 0;
+    def.velocity.c[0] = BOXES_Q40(8);
+    CHECK_EQ(boxes_add(world, &def), B);
+    apart = false;
+    boxes_step(world, 37);
+    CHECK(!boxes_state(world, A).asleep && !boxes_state(world, B).out);
+    boxes_step(world, 1);
+    out = boxes_state(world, B);
+    CHECK(boxes_state(world, A).asleep && out.out);
+    boxes_step(world, 1);
+    CHECK_EQ(boxes_events(world, CAROM_EVENT_END, B, A), 0);
+    CHECK_EQ(add_cube(world, edge - 900, 400), C);
+    CHECK(wait(world, 40));
+    CHECK_EQ(boxes_events(world, CAROM_EVENT_WAKE, A, 0), 1);
+    CHECK_EQ(boxes_events(world, CAROM_EVENT_WAKE, B, 0), 0);
+    CHECK_EQ(boxes_events(world, CAROM_EVENT_END, B, A), 1);
+    for (int i = 0; i < 5; i++) {
+        struct carom_body_state now = boxes_state(world, B);
+
+        CHECK(now.out && boxes_same(&now, &out));
+        boxes_step(world, 1);
+        ended += boxes_events(world, CAROM_EVENT_END, B, A);
+    }
+    CHECK_EQ(ended, 0);
+}
+
 const struct test tests_world_wake[] = {{"world_wake/one_by_one", test_one_by_one},
                                         {"world_wake/no_room", test_no_room},
                                         {"world_wake/passing", test_passing},
+                                        {"world_wake/both", test_both},
+                                        {"world_wake/left_behind", test_left_behind},
                                         {0}};

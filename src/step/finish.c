@@ -70,7 +70,10 @@ int step_note_touching(struct step *s, const struct pair *p)
     return CAROM_OK;
 }
 
-/* Drop impulses of contacts that the next frame does not look at. */
+/*
+ * Drop impulses of contacts that the next frame does not look at. An awake body must be one that
+ * moves: a kinematic one may stop, and then nothing is awake.
+ */
 void step_drop_warm(struct step *s)
 {
     const struct carom_world *w = s->w;
@@ -79,8 +82,7 @@ void step_drop_warm(struct step *s)
     for (uint32_t i = 0; i < w->rest.warm_count; i++) {
         const struct rest_warm *warm = &s->next->warm[i];
 
-        if (broad_active(&w->bodies[warm->a], &s->next->bodies[warm->a]) ||
-            broad_active(&w->bodies[warm->b], &s->next->bodies[warm->b])) {
+        if (step_active(s, warm->a) || (w->bodies[warm->b].def.moving && step_active(s, warm->b))) {
             s->next->warm[kept++] = *warm;
         }
     }

@@ -270,7 +270,8 @@ static bool is_idle(const struct carom_world *w)
             return false;
         }
     }
-    return now->warm_count == 0 && !w->sense_anew;
+    CAROM_ASSERT(now->warm_count == 0); /* see step_drop_warm */
+    return !w->sense_anew;
 }
 
 /*

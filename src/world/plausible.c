@@ -126,9 +126,10 @@ static bool repeats(const struct rest_warm *first, const struct rest_warm *warm)
     return false;
 }
 
+/* True if a body moves and is awake. */
 static bool awake(const struct carom_world *w, const struct world_state *s, uint16_t i)
 {
-    return broad_active(&w->bodies[i], &s->bodies[i]);
+    return w->bodies[i].def.moving && broad_active(&w->bodies[i], &s->bodies[i]);
 }
 
 /* True if kept impulses belong to touching pairs, in their order, with at least one body awake. */
