@@ -259,7 +259,7 @@ static void test_enter(void)
     hand.bodies[0].def.friction_q16 = 7;
     hand.bodies[1].def.friction_q16 = 9;
     CHECK_EQ(rest_restitution(&hand.rest, &hand.bodies[0], &hand.bodies[1]), 3);
-    CHECK_EQ(rest_friction(&hand.rest, &hand.bodies[1], &hand.bodies[0]), 7);
+    CHECK_EQ(rest_plain_friction(&hand.bodies[1], &hand.bodies[0]), 7);
 }
 
 /*

@@ -224,9 +224,7 @@ static void test_left_behind(void)
     CHECK_EQ(ended, 0);
 }
 
-const struct test tests_world_wake[] = {{"world_wake/one_by_one", test_one_by_one},
-                                        {"world_wake/no_room", test_no_room},
-                                        {"world_wake/passing", test_passing},
-                                        {"world_wake/both", test_both},
-                                        {"world_wake/left_behind", test_left_behind},
-                                        {0}};
+const struct test tests_world_wake[] = {
+    {"world_wake/one_by_one", test_one_by_one},   {"world_wake/no_room", test_no_room},
+    {"world_wake/passing", test_passing},         {"world_wake/both", test_both},
+    {"world_wake/left_behind", test_left_behind}, {0}};

@@ -21,27 +21,16 @@ int32_t rest_within(int64_t v, int32_t most)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-/* The largest e, and mu, of a body's faces, which may be of several materials. */
+/* The largest e of a body's faces, which may be of several materials. */
 static int32_t most_restitution(const struct body *b)
 {
     return b->def.extra && b->def.extra->materials ? b->def.extra->most_restitution_q30
                                                    : b->def.restitution_q30;
 }
 
-static uint32_t most_friction(const struct body *b)
-{
-    return b->def.extra && b->def.extra->materials ? b->def.extra->most_friction_q16
-                                                   : b->def.friction_q16;
-}
-
 int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b)
 {
     return contact_mix_restitution(&r->list, most_restitution(a), most_restitution(b));
-}
-
-uint32_t rest_friction(const struct rest *r, const struct body *a, const struct body *b)
-{
-    return contact_mix_friction(&r->list, most_friction(a), most_friction(b));
 }
 
 int32_t rest_mixed_restitution(const struct rest *r, const struct contact *c)
@@ -56,7 +45,10 @@ uint32_t rest_mixed_friction(const struct rest *r, const struct contact *c)
 {
     const struct contact_mixed *mixed = contact_mixed(&r->list, c);
 
-    return mixed ? mixed->friction_q16 : rest_friction(r, rest_body(r, c, 0), rest_body(r, c, 1));
+    /* a contact of materials by face has mixed ones */
+    return mixed ? mixed->friction_q16
+                 : contact_mix_friction(&r->list, rest_body(r, c, 0)->def.friction_q16,
+                                        rest_body(r, c, 1)->def.friction_q16);
 }
 
 /* v times an arm, to nearest, if the product is below 2^62. */

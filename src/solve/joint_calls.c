@@ -122,18 +122,16 @@ static void enter(struct rest *r)
                 continue;
             }
             b = a->clock.contact == BODY_ENTERS ? b : a;
-            if (b->clock.contact == BODY_FLIES) {
-                b->clock.contact = BODY_ENTERS;
-                again = true;
-            }
+            CAROM_ASSERT(b->clock.contact == BODY_FLIES); /* or its group had entered before */
+            b->clock.contact = BODY_ENTERS;
+            again = true;
         }
     }
     for (uint32_t i = 0; i < r->joints.count; i++) {
         struct joint *j = &r->joints.joints[i];
 
-        j->chosen =
-            j->chosen && (r->bodies[j->a].clock.contact == BODY_ENTERS ||
-                          (j->b != JOINT_WORLD && r->bodies[j->b].clock.contact == BODY_ENTERS));
+        /* b has entered only if a has */
+        j->chosen = j->chosen && r->bodies[j->a].clock.contact == BODY_ENTERS;
     }
 }
 

@@ -192,7 +192,8 @@ static void invert_k(struct joint_work *work)
             all |= (uint64_t)carom_abs(k_q30[i][k]);
         }
     }
-    over = fix_bits(all) > 30 ? fix_bits(all) - 30 : 0;
+    over = fix_bits(all) - 30;
+    CAROM_ASSERT(over >= 0); /* each linear row's own entry of K is at most 1, but for rounding */
     work->inverse_bits = (int8_t)(30 - over);
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < n; k++) {

@@ -138,9 +138,8 @@ static inline bool rest_bounces_for_ever(int32_t e_q30)
     return e_q30 >= CAROM_ONE_Q30;
 }
 
-/* e and mu of a pair of bodies; the largest possible ones if their faces are of several materials. */
+/* e of a pair of bodies; the largest possible one if their faces are of several materials. */
 int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b);
-uint32_t rest_friction(const struct rest *r, const struct body *a, const struct body *b);
 /* The smaller e and mu of both bodies, which a `plain` list uses. */
 inline int32_t rest_plain_restitution(const struct body *a, const struct body *b)
 {

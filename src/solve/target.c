@@ -135,7 +135,7 @@ void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q3
         /* may close until the skins touch; q22 to q40 over the time */
         int32_t time_q30 = tau_q30 > REST_CLOSING_MIN_Q30 ? tau_q30 : REST_CLOSING_MIN_Q30;
 
-        c->work->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
+        c->work->target_q40 = -speed_q40(open_q22, time_q30);
     } else {
         c->work->target_q40 = ((int64_t)c->skin_q22 << 18) / REST_LIFT_DIVISOR;
         c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / REST_RECOVERY_DIVISOR;

@@ -40,10 +40,11 @@ static int32_t later(struct boyse_pair *pair, const struct candidate *c, int32_t
     int32_t low = 0, high = root_q30, gap;
     bool valid, there;
 
-    boyse_touch(pair, c, high, &root);
-    if (high <= 1 || !root.valid) {
+    if (high <= 1) {
         return 0;
     }
+    boyse_touch(pair, c, high, &root);
+    CAROM_ASSERT(root.valid); /* the test that found the root, of the same pair at the same time */
     gap = gap_by(pair, c, root.sign, 0, &valid);
     if (valid && (gap <= pair->skin_q22 / STEP_NEAR_DIVISOR ||
                   gap - gap_by(pair, c, root.sign, high >> 3, &there) > gap / 16 + NOISE_Q22)) {
