@@ -161,6 +161,37 @@ static void wedges(void)
     }
 }
 
+/*
+ * I about z is 2^-29 of that about x and y, less than the elimination tells from 0: where the contact slides along its slip, where it
+ * slides though V has no slip, and where sticking would gain energy, no frictionless impulse is found. Only where P sticks it is not
+ * needed.
+ */
+static void thin(void)
+{
+    static const struct {
+        double slip;
+        uint32_t friction_q16;
+        bool elastic;
+        int result;
+    } cases[] = {{-1, 1 << 10, false, CAROM_ERR_RANGE},
+                 {0, 1 << 10, false, CAROM_ERR_RANGE},
+                 {-0.5, 4 << 16, true, CAROM_ERR_RANGE},
+                 {-0.5, 4 << 16, false, CAROM_OK}};
+
+    for (int n = 0; n < 4; n++) {
+        struct impact in = touch(1 << 20, CAROM_ONE_Q30 / 2, 1, 0, -1);
+
+        in.a.inertia.m[2] = 1;
+        in.velocity.c[0] = (int64_t)(cases[n].slip * (double)ONE);
+        in.velocity.c[2] = -ONE;
+        in.target_q40 = cases[n].elastic ? ONE : 0;
+        in.friction_q16 = cases[n].friction_q16;
+        out.normal_q40 = 77;
+        CHECK_EQ(impact_solve(&w, &in, &out), cases[n].result);
+        CHECK_EQ(out.normal_q40 == 77, cases[n].result < 0);
+    }
+}
+
 const struct test tests_solve_impact_ends[] = {
     {"solve_impact_ends/no_solution", no_solution},
     {"solve_impact_ends/last_place", last_place},
@@ -168,5 +199,6 @@ const struct test tests_solve_impact_ends[] = {
     {"solve_impact_ends/hidden_approach", hidden_approach},
     {"solve_impact_ends/rounding_of_normal", rounding_of_normal},
     {"solve_impact_ends/wedges", wedges},
+    {"solve_impact_ends/thin", thin},
     {0},
 };
