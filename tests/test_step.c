@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Parts of a step, called by hand in states that a scene seldom has: an island that has nothing to give back, others that came to its
+ * place, a kinematic body that carries a pile, hits of sleepers, a full list of events.
+ */
+#include <string.h>
+
+#include "lib/boxes.h"
+#include "step/parts.h"
+
+enum { FLAT, CUBE };
+enum { GROUND, A, B, C, D };
+
+static struct carom_world *world;
+static struct step step;
+
+/* Room for kinematic bodies, a flat box of half sides 8000, 8000 and 100, and cubes of half side 100. */
+static void begin(void)
+{
+    boxes_begin();
+    boxes_make(FLAT, 8000, 8000, 100);
+    boxes_make(CUBE, 100, 100, 100);
+    boxes_config.caps.extras = BOXES_EXTRAS;
+    world = boxes_world(0);
+}
+
+static void add_ground(void)
+{
+    struct carom_body_def def = boxes_def(FLAT, 0, 0, 0);
+
+    def.stationary = true;
+    CHECK_EQ(boxes_add(world, &def), GROUND);
+}
+
+static int add_cube(int x, int z)
+{
+    const struct carom_body_def def = boxes_def(CUBE, x, 0, z);
+
+    return boxes_add(world, &def);
+}
+
+/* Begin a step, up to its first solve. */
+static void start(void)
+{
+    step_begin(&step, world);
+    CHECK_EQ(step_begin_regions(&step), CAROM_OK);
+    CHECK_EQ(step_start_contacts(&step), CAROM_OK);
+}
+
+static uint32_t pair_of(uint16_t a, uint16_t b)
+{
+    const uint32_t number = step_find_pair(world, &(struct pair){a, b});
+
+    CHECK_LESS(number, world->pools[CAROM_POOL_pairs].used);
+    return number;
+}
+
+static bool as_before(int body)
+{
+    return memcmp(&step.next->bodies[body], &world->now->bodies[body], sizeof *step.next->bodies) ==
+           0;
+}
+
+/*
+ * A has come up by a unit and has hardly any motion: it goes back and stops. C, which touches it, has left the world and stays where it
+ * is. A kinematic body, B, has come to where A was: it goes back as well, and is blocked, which is told once. D may pass A and stays.
+ */
+static void climbed(void)
+{
+    for (int again = 0; again < 2; again++) {
+        struct carom_body_def def = boxes_def(CUBE, -2000, 0, 200);
+        struct body_state c, d;
+
+        begin();
+        add_ground();
+        CHECK_EQ(add_cube(0, 200), A);
+        def.kinematic = true;
+        def.velocity.c[0] = BOXES_Q40(2000);
+        CHECK_EQ(boxes_add(world, &def), B);
+        CHECK_EQ(add_cube(220, 200), C);
+        CHECK_EQ(add_cube(2000, 200), D);
+        step_begin(&step, world);
+        step.next->bodies[A].position.c[2] += BOXES_Q32(1024);
+        step.next->bodies[A].momentum.c[0] = 1000;
+        step.next->bodies[B].position = world->now->bodies[A].position;
+        step.next->bodies[C].out = 1;
+        step.next->bodies[C].position.c[2] += BOXES_Q32(1024);
+        step.next->bodies[D].position = world->now->bodies[A].position;
+        world->pairs[0] = (struct pair){D, A};
+        world->pools[CAROM_POOL_pairs].used = 1;
+        memset(&world->meetings[0], 0, sizeof world->meetings[0]);
+        world->meetings[0].passes = 1;
+        CHECK_EQ(step_note_touching(&step, &(struct pair){A, GROUND}), CAROM_OK);
+        CHECK_EQ(step_note_touching(&step, &(struct pair){C, A}), CAROM_OK);
+        world->bodies[B].def.extra->blocked = again;
+        c = step.next->bodies[C];
+        d = step.next->bodies[D];
+        step_limit_energy(&step);
+        CHECK(as_before(A));
+        CHECK(as_before(B));
+        CHECK_EQ(memcmp(&c, &step.next->bodies[C], sizeof c), 0);
+        CHECK_EQ(memcmp(&d, &step.next->bodies[D], sizeof d), 0);
+        CHECK_EQ(boxes_events(world, CAROM_EVENT_BLOCKED, B, A), !again);
+        CHECK(world->bodies[B].def.extra->blocked);
+    }
+}
+
+/* A kinematic plate, as body 0, and two cubes on it, at a corner or in the middle. */
+static void pile_on(int at, double vx, double vy, double spin)
+{
+    struct carom_body_def def = boxes_def(FLAT, 0, 0, 0);
+
+    begin();
+    def.kinematic = true;
+    def.velocity.c[0] = (int64_t)(vx * (double)BOXES_Q40(1024));
+    def.velocity.c[1] = (int64_t)(vy * (double)BOXES_Q40(1024));
+    def.spin.c[2] = (int64_t)(spin * (double)BOXES_Q40(1024));
+    CHECK_EQ(boxes_add(world, &def), GROUND);
+    def = boxes_def(CUBE, at, at, 200);
+    def.friction_q16 = 0;
+    CHECK_EQ(boxes_add(world, &def), A);
+    def.position.c[2] += BOXES_Q32(200);
+    CHECK_EQ(boxes_add(world, &def), B);
+    start();
+    CHECK_EQ(world->bodies[A].island.lowest, world->bodies[B].island.lowest);
+}
+
+/*
+ * The pile goes along with the plate: both cubes have its velocity. It does not with a plate that stands, nor with one whose corner
+ * turns so fast that a cube there would be faster than the limit of 64.
+ */
+static void carried(void)
+{
+    pile_on(0, 0.25, 0, 0);
+    CHECK(step_carry_island(&step, world->bodies[A].island.lowest, false));
+    for (int i = A; i <= B; i++) {
+        struct body_state *s = &step.next->bodies[i];
+        carom_v3_q40 v;
+
+        body_velocity(&world->bodies[i], s, &v);
+        CHECK_NEAR(v.c[0], BOXES_Q40(256), 1 << 12);
+        CHECK_EQ(v.c[1], 0);
+        CHECK_EQ(v.c[2], 0);
+    }
+    for (int fast = 0; fast < 2; fast++) {
+        struct body_state before[2];
+
+        /* radius 11.05: 30.6 + 3 * 11.05 = 63.75, and a cube adds 3 * 0.17 */
+        pile_on(fast ? 8000 : 0, fast ? -21.64 : 0.25, fast ? 21.64 : 0, fast ? 3 : 0);
+        world->bodies[GROUND].clock.stands = !fast;
+        memcpy(before, &step.next->bodies[A], sizeof before);
+        CHECK(!step_carry_island(&step, world->bodies[A].island.lowest, false));
+        CHECK_EQ(memcmp(before, &step.next->bodies[A], sizeof before), 0);
+    }
+}
+
+/*
+ * The features of a hit do not face each other at its time, and one of its bodies sleeps: it sleeps on. The other one counts the hit, is
+ * not held up, though it was the sixth in a row, and the count of a row ends at 127.
+ */
+static void asleep(void)
+{
+    for (int n = 0; n < 4; n++) {
+        const int sleeper = n % 2 ? A : B, other = n % 2 ? B : A;
+        struct carom_body_def def = boxes_def(CUBE, 0, 0, 600);
+        struct pair_work *m;
+        carom_v3_q40 v;
+
+        begin();
+        add_ground();
+        for (int i = A; i <= B; i++) {
+            def.position.c[0] = BOXES_Q32(i == sleeper ? 0 : 201);
+            def.velocity.c[1] = i == sleeper ? 0 : BOXES_Q40(10);
+            CHECK_EQ(boxes_add(world, &def), i);
+        }
+        world->states[0].bodies[sleeper].asleep = world->states[1].bodies[sleeper].asleep = 1;
+        start();
+        for (int i = A; i <= B; i++) {
+            if (i == other) {
+                CHECK_EQ(step_set_path(&step, (uint32_t)i), CAROM_OK);
+            }
+        }
+        m = &world->meetings[pair_of(B, A)];
+        m->kind = CANDIDATE_VERTEX_FACE;
+        m->hit_q30 = m->answered_q30 = CAROM_ONE_Q30 / 2;
+        m->root_q30 = CAROM_ONE_Q30 / 2 + 1000;
+        m->repeats = n / 2 ? 127 : 5;
+        CHECK_EQ(step_answer(&step, pair_of(B, A)), CAROM_OK);
+        CHECK_EQ(world->meetings[pair_of(B, A)].repeats, n / 2 ? 127 : 6);
+        CHECK(as_before(sleeper));
+        CHECK_EQ(world->bodies[sleeper].clock.events, 0);
+        CHECK_EQ(world->bodies[other].clock.events, 1);
+        body_velocity(&world->bodies[other], &step.next->bodies[other], &v);
+        CHECK_NEAR(v.c[1], BOXES_Q40(10), 1 << 12);
+        /* half a frame of gravity */
+        CHECK_NEAR(v.c[2], CAROM_GRAVITY_MM_S2(-9810, 60) / 2, 1 << 12);
+    }
+}
+
+/* The list of events holds so many, and forgets others. */
+static void events(void)
+{
+    const struct carom_event *e;
+    int most;
+
+    begin();
+    most = (int)(3 * boxes_config.caps.pairs + 2 * boxes_config.caps.bodies +
+                 boxes_config.caps.joints);
+    for (int i = 0; i < most + 3; i++) {
+        step_add_event(world, CAROM_EVENT_WAKE, (uint16_t)i, 0);
+    }
+    CHECK_EQ(carom_events(world, &e), most);
+    for (int i = 0; i < most; i++) {
+        CHECK_EQ(e[i].a, i);
+    }
+}
+
+const struct test tests_step[] = {
+    {"step/climbed", climbed},
+    {"step/carried", carried},
+    {"step/asleep", asleep},
+    {"step/events", events},
+    {0},
+};
