@@ -340,6 +340,35 @@ static void test_impact_warm(void)
     }
 }
 
+/*
+ * A needle falls with a slip onto a place beside it, as if it had a whisker without mass: it turns about its axis thousands of times as
+ * easily as it moves, so K has no inverse within 30 bits. The place stops falling, by an impulse of 1 / (1 + r^2 / I) of the fall, with
+ * friction of mu times as much; the needle itself goes on, and turns.
+ */
+static void test_whisker(void)
+{
+    static const int32_t arm[3] = {0, 63 << 16, 0};
+    const double mu = 0.25, fall = 0.125, r = 63 / 64.0, side = 1 / 64.0;
+    const double p = fall / (1 + r * r / (side * side / 6));
+    double v[3], w[3];
+
+    shape_plane(&hand.ground, 9, 2, 4096);
+    shape_box(&hand.solid, 12, 4096, 64, 64);
+    hand_begin(1, 0);
+    body_set_mass(&hand.bodies[1], fix_scale(1 << 30, 30));
+    hand_set_surface(0, mu);
+    hand_set_motion(1, (double[3]){0.5, 0, -fall}, (double[3]){0, 0, 0});
+    hand_touch(0, 0, arm, hand_up, hand.bodies[1].def.skin_q22 / 2);
+    hand.contacts[0].lasting = true; /* so the sweeps solve it */
+    CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
+    CHECK_MORE(hand.rest.sweeps, 0);
+    hand_velocity_of(1, v, w);
+    CHECK_LESS(real_abs(v[2] + fall - p), 1e-6);
+    CHECK_LESS(real_abs(v[0] - 0.5 + mu * p), 1e-6);
+    CHECK_LESS(real_abs(v[1]), 1e-6);
+    CHECK_LESS(real_abs(v[2] + w[0] * r), fall / 100);
+}
+
 const struct test tests_solve_rest[] = {
     {"solve_rest/particle", test_particle},
     {"solve_rest/too_near", test_too_near},
@@ -351,5 +380,6 @@ const struct test tests_solve_rest[] = {
     {"solve_rest/enter", test_enter},
     {"solve_rest/lasting", test_lasting},
     {"solve_rest/impact_warm", test_impact_warm},
+    {"solve_rest/whisker", test_whisker},
     {0},
 };

@@ -325,18 +325,13 @@ static void unite_free(struct rest *r, struct rest_rigid *rigid)
     make_up(r, rigid, &before);
 }
 
-bool rest_unite(struct rest *r, uint32_t island, bool grounded)
+void rest_unite(struct rest *r, uint32_t island, bool grounded)
 {
-    uint32_t first = rest_island_first(r, island);
     struct rest_rigid rigid;
 
     if (grounded) {
         rest_scale_grounded(r, island, 0);
-        return true;
+    } else if (rest_rigid_motion(r, island, &rigid)) {
+        unite_free(r, &rigid);
     }
-    if (!rest_rigid_motion(r, island, &rigid)) {
-        return first == ISLAND_END || rest_island_next(r, first) == ISLAND_END;
-    }
-    unite_free(r, &rigid);
-    return true;
 }

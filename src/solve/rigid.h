@@ -45,9 +45,9 @@ void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30);
 /*
  * The last resort. Afterwards no two bodies of the island approach each other, nor, if it is
  * grounded, a stationary body. A free island moves as one rigid body, with all of its momentum and
- * angular momentum; a grounded one is at rest. Its energy does not rise. Returns false, and changes
- * nothing, if the island is so thin that its turn is unknown.
+ * angular momentum; a grounded one is at rest. Its energy does not rise. Changes nothing of a free
+ * island that is so thin that its turn is unknown.
  */
-bool rest_unite(struct rest *r, uint32_t island, bool grounded);
+void rest_unite(struct rest *r, uint32_t island, bool grounded);
 
 #endif

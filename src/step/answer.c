@@ -207,7 +207,7 @@ static void calm_island(struct step *s, uint32_t body, bool hard)
         grounded |= s->w->bodies[p->a].island.lowest == first && !s->w->bodies[p->b].def.moving;
     }
     if (!grounded || !step_carry_island(s, first, hard)) {
-        (void)rest_unite(&s->w->rest, first, grounded);
+        rest_unite(&s->w->rest, first, grounded);
     }
     s->w->stats.calmed++;
 }
