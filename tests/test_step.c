@@ -215,10 +215,76 @@ static void events(void)
     }
 }
 
+/*
+ * A heavy cube has one hit, with a light one, which would be faster than the limit of 64: it leaves the world where it was. The heavy
+ * one stands there for the rest of the frame.
+ */
+static void thrown_out(void)
+{
+    struct carom_body_def def;
+    struct carom_body_state s;
+
+    begin();
+    boxes_config.gravity.c[2] = 0;
+    boxes_config.substep_cap = 1;
+    world = boxes_world(0);
+    def = boxes_def(CUBE, 0, 0, 0);
+    def.restitution_q30 = CAROM_ONE_Q30;
+    def.mass_q20 = 1 << 10;
+    CHECK_EQ(boxes_add(world, &def), 0);
+    def.position.c[0] = BOXES_Q32(-20480);
+    def.velocity.c[0] = BOXES_Q40(40960); /* 40 units a frame, and twice as fast after the hit */
+    def.mass_q20 = 1 << 30;
+    CHECK_EQ(boxes_add(world, &def), 1);
+    CHECK_EQ(carom_world_step(world), CAROM_SUBSTEP_CAP);
+    CHECK_EQ(boxes_events(world, CAROM_EVENT_OUT, 0, 0), 1);
+    s = boxes_state(world, 0);
+    CHECK(s.out);
+    CHECK_EQ(s.position.c[0], 0);
+    s = boxes_state(world, 1);
+    CHECK(!s.out);
+    CHECK_NEAR(s.position.c[0], BOXES_Q32(-200), BOXES_Q32(1));
+}
+
+/*
+ * Two cubes sleep on the ground, and a third comes to lie elsewhere: that is one pair more than there is room for, which shows where
+ * the events are made. With a sensor in the world it is an error, too, and nothing changes.
+ */
+static void full_at_the_end(void)
+{
+    struct carom_body_def def;
+    uint64_t hash = 0;
+    int result = CAROM_OK;
+
+    begin();
+    boxes_config.caps.pairs = 2;
+    world = boxes_world(0);
+    add_ground();
+    CHECK_EQ(add_cube(-500, 200), A);
+    CHECK_EQ(add_cube(500, 200), B);
+    boxes_step(world, 35);
+    CHECK(boxes_state(world, A).asleep && boxes_state(world, B).asleep);
+    def = boxes_def(CUBE, 20000, 0, 0);
+    def.stationary = true;
+    CHECK_EQ(boxes_add(world, &def), C);
+    def.sensor = true;
+    def.position.c[0] = BOXES_Q32(40000);
+    CHECK_EQ(boxes_add(world, &def), D);
+    (void)add_cube(20000, 220);
+    for (int i = 0; i < 60 && result == CAROM_OK; i++) {
+        hash = carom_world_hash(world);
+        result = carom_world_step(world);
+    }
+    CHECK_EQ(result, CAROM_ERR_PAIRS_FULL);
+    CHECK_EQ(carom_world_hash(world), hash);
+}
+
 const struct test tests_step[] = {
     {"step/climbed", climbed},
     {"step/carried", carried},
     {"step/asleep", asleep},
     {"step/events", events},
+    {"step/thrown_out", thrown_out},
+    {"step/full_at_the_end", full_at_the_end},
     {0},
 };

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Groups of joints within a frame: one that stands since it has had its last hit and is hit once more, and one that comes near to
+ * another body just where a slice ends.
+ */
+#include "lib/jointed.h"
+#include "step/parts.h"
+
+enum { WALL, A, B, C };
+
+/* A world without gravity, with a cap of hits, and a stationary box at a place. */
+static void begin(uint8_t cap, int64_t x, int64_t z)
+{
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS), .substep_cap = cap};
+
+    setup(0);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
+    def.stationary = true;
+    CHECK_EQ(add(x, 0, z), WALL);
+    def.stationary = false;
+}
+
+/* Two boxes side by side along y, as one body. */
+static void add_group(void)
+{
+    struct carom_joint_def j;
+
+    CHECK_EQ(add(0, 0, 0), A);
+    CHECK_EQ(add(0, UNIT, 0), B);
+    j = joint(CAROM_JOINT_FIXED, A, B, 0, UNIT / 2, 0);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+}
+
+/* A group is stopped by a wall at z = 3/4, as it has one hit. Later in the frame another box hits it: all stand where they are. */
+static void test_stands(void)
+{
+    begin(1, 0, UNIT);
+    def.velocity.c[2] = ONE;
+    add_group();
+    CHECK_EQ(carom_body_set_filter(world, B, &(struct carom_filter){1, 0xffff, -1}), CAROM_OK);
+    CHECK_EQ(carom_body_set_filter(world, WALL, &(struct carom_filter){1, 0xffff, -1}), CAROM_OK);
+    def.velocity.c[2] = 0;
+    def.velocity.c[1] = -ONE;
+    CHECK_EQ(add(0, UNIT + UNIT / 2 + UNIT * 9 / 10, UNIT * 3 / 4), C); /* nine tenths from B */
+    CHECK_EQ(carom_world_step(world), CAROM_SUBSTEP_CAP);
+    CHECK_EQ(events_of(CAROM_EVENT_HIT, A, WALL), 1);
+    CHECK_EQ(events_of(CAROM_EVENT_HIT, C, B), 1);
+    for (int i = A; i <= C; i++) {
+        const struct carom_body_state s = state_of(i);
+        const int64_t y = i == A ? 0 : i == B ? UNIT : UNIT * 3 / 2;
+
+        CHECK_NEAR(s.position.c[0], 0, UNIT >> 11);
+        CHECK_NEAR(s.position.c[1], y, UNIT >> 11);
+        CHECK_NEAR(s.position.c[2], UNIT * 3 / 4, UNIT >> 11);
+    }
+    CHECK_LESS(apart(0), UNIT >> 11);
+}
+
+/*
+ * A group flies along x and turns about x by a fifth of a radian a frame, so its first slice, of an eighth of a radian, ends at 5/8 of
+ * the frame. There it is half a skin to five skins from another body, which is a contact and no hit.
+ */
+static void near_at_slice(void)
+{
+    begin(0, 8 * UNIT, 0);
+    def.velocity.c[0] = ONE / 4;
+    def.spin.c[0] = ONE / 5;
+    CHECK_EQ(add(0, 0, 0), A);
+    CHECK_EQ(add(-UNIT, 0, 0), B);
+    {
+        struct carom_joint_def j = joint(CAROM_JOINT_FIXED, A, B, -UNIT / 2, 0, 0);
+
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+    }
+    memset(&def.velocity, 0, sizeof def.velocity);
+    memset(&def.spin, 0, sizeof def.spin);
+    CHECK_EQ(add(UNIT + UNIT / 4 * 5 / 8 + (UNIT >> 11), 0, 0), C);
+}
+
+/* Contacts that come with a slice have no room: the step changes nothing. */
+static void test_no_room(void)
+{
+    near_at_slice();
+    world->pools[CAROM_POOL_contacts].size = 1;
+    REFUSE(carom_world_step(world), CAROM_ERR_CONTACTS_FULL);
+    world->pools[CAROM_POOL_contacts].size = 24;
+    steps(1);
+}
+
+/* The other body sleeps: it wakes with the slice, and takes its part of the momentum. */
+static void test_wakes(void)
+{
+    int64_t sum = 0;
+
+    near_at_slice();
+    world->states[0].bodies[C].asleep = world->states[1].bodies[C].asleep = 1;
+    steps(1);
+    CHECK_EQ(events_of(CAROM_EVENT_WAKE, C, 0), 1);
+    CHECK(!state_of(C).asleep);
+    for (int i = A; i <= C; i++) {
+        sum += state_of(i).velocity.c[0];
+    }
+    CHECK_NEAR(sum, ONE / 2, 1 << 12);
+}
+
+/* A and B sleep and touch, and there is no room to note it: the step changes nothing, though it has a joint to break. */
+static void test_no_room_to_touch(void)
+{
+    struct carom_joint_def j;
+
+    setup(FALL);
+    CHECK_EQ(add(0, 0, 0), 0);
+    CHECK_EQ(add(4 * UNIT, 0, 0), 1);
+    CHECK_EQ(add(4 * UNIT, UNIT / 2, 0), 2);
+    j = joint(CAROM_JOINT_BALL, 0, CAROM_WORLD, 0, 0, 0);
+    j.most_impulse_q40 = 1;
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    for (int i = 1; i <= 2; i++) {
+        world->states[0].bodies[i].asleep = world->states[1].bodies[i].asleep = 1;
+    }
+    world->now->touching[0] = (struct pair){2, 1};
+    world->now->touching_count = 1;
+    world->config.caps.pairs = 0;
+    REFUSE(carom_world_step(world), CAROM_ERR_PAIRS_FULL);
+    CHECK(!joint_of(0).broken);
+    world->config.caps.pairs = PAIRS;
+    steps(1);
+    CHECK(joint_of(0).broken);
+}
+
+const struct test tests_step_joint[] = {
+    {"step_joint/stands", test_stands},
+    {"step_joint/no_room", test_no_room},
+    {"step_joint/wakes", test_wakes},
+    {"step_joint/no_room_to_touch", test_no_room_to_touch},
+    {0},
+};
