@@ -5,6 +5,7 @@
  */
 #include "lib/jointed.h"
 #include "lib/test.h"
+#include "solve/joint_parts.h"
 
 /* A box a sixteenth as large. */
 static struct shape small;
@@ -93,9 +94,30 @@ static void test_light_between(void)
     CHECK_LESS(carom_abs(state_of(heavy).position.c[2] + UNIT), UNIT >> 12);
 }
 
+/* A velocity, q40, in units of 2^10, is at most 2^27 of them, however large it is. */
+static void test_units(void)
+{
+    static const int64_t change_q40[] = {0, 3 << 10, -(5 << 10), INT64_MAX / 2, -INT64_MAX / 2};
+    static const int32_t before[] = {0, -3, 5, -(1 << 27), 1 << 27};
+    static struct joint one;
+    const struct joint_state state = {.broken = 0};
+    const struct rest_sweep sweep = {.unit = 10};
+
+    memset(&one, 0, sizeof one);
+    one.work.rows = one.work.held = 5;
+    for (int i = 0; i < 5; i++) {
+        one.work.change_q40[i] = change_q40[i];
+    }
+    joint_begin(&one, &state, &sweep);
+    for (int i = 0; i < 5; i++) {
+        CHECK_EQ(one.work.before[i], before[i]);
+    }
+}
+
 const struct test tests_solve_joint_hold[] = {
     {"solve_joint_hold/rope", test_rope},
     {"solve_joint_hold/break_owes_nothing", test_break_owes_nothing},
     {"solve_joint_hold/light_between", test_light_between},
+    {"solve_joint_hold/units", test_units},
     {0},
 };

@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "carom_shapes.h"
 #include "lib/boxes.h"
 #include "step/parts.h"
 
@@ -279,6 +280,80 @@ static void full_at_the_end(void)
     CHECK_EQ(carom_world_hash(world), hash);
 }
 
+/* The features of a hit with a one-way ground do not face each other: no side can be told, and the pair does not pass. */
+static void no_side(void)
+{
+    struct carom_body_def def = boxes_def(FLAT, 0, 0, 0);
+    uint32_t number;
+
+    begin();
+    def.stationary = true;
+    def.one_way = CAROM_ONE_WAY_Z;
+    CHECK_EQ(boxes_add(world, &def), GROUND);
+    CHECK_EQ(add_cube(0, 200), A);
+    start();
+    CHECK_EQ(step_set_path(&step, A), CAROM_OK);
+    number = pair_of(A, GROUND);
+    world->meetings[number].kind = CANDIDATE_VERTEX_FACE;
+    world->meetings[number].i = 7; /* the top of the cube */
+    world->meetings[number].hit_q30 = CAROM_ONE_Q30 / 2;
+    world->meetings[number].root_q30 = CAROM_ONE_Q30 / 2;
+    CHECK(!step_let_pass(&step, number));
+    CHECK(!world->meetings[number].passes);
+    CHECK_EQ(world->meetings[number].hit_q30, CAROM_ONE_Q30 / 2);
+}
+
+#ifdef TEST_LONG
+#define SIDES 36
+/*
+ * A ball of 1224 faces flies to another one, which sleeps: so many pairs of faces that candidates for regions of several frames cost
+ * much. They meet when the gap is used up; then both are awake, and no momentum is lost.
+ */
+static void many_faces(void)
+{
+    static int16_t vertices[CAROM_SPHERE_VERTICES(SIDES)][3];
+    static uint16_t faces[CAROM_SPHERE_FACES(SIDES)][3];
+    static _Alignas(8)
+        uint8_t block[CAROM_MESH_BYTES(CAROM_SPHERE_VERTICES(SIDES), CAROM_SPHERE_FACES(SIDES))];
+    const struct carom_shape_room room = {vertices, faces, CAROM_SPHERE_VERTICES(SIDES),
+                                          CAROM_SPHERE_FACES(SIDES), 10};
+    struct carom_body_def def = boxes_def(CUBE, 0, 0, 0);
+    struct carom_mesh_raw raw;
+    struct carom_mesh ball;
+    int hits = 0, frame = 0;
+
+    begin();
+    boxes_config.gravity.c[2] = 0;
+    world = boxes_world(0);
+    CHECK_EQ(carom_shape_sphere(&raw, &room, 1000, SIDES), CAROM_OK);
+    CHECK_EQ(carom_mesh_build(&ball, &raw, block, sizeof block), CAROM_OK);
+    def.mesh = &ball;
+    def.mass_q20 = 1 << 20;
+    def.friction_q16 = 0;
+    def.velocity.c[0] = BOXES_Q40(100);
+    CHECK_EQ(boxes_add(world, &def), 0);
+    def.velocity.c[0] = 0;
+    def.position = (carom_v3_q32){{BOXES_Q32(4450), BOXES_Q32(30), BOXES_Q32(20)}};
+    CHECK_EQ(boxes_add(world, &def), 1);
+    world->states[0].bodies[1].asleep = world->states[1].bodies[1].asleep = 1;
+    for (int i = 0; i < 2; i++) { /* regions last where any bodies are near each other */
+        def = boxes_def(CUBE, 0, 5000 + 201 * i, 0);
+        def.velocity.c[0] = BOXES_Q40(10);
+        (void)boxes_add(world, &def);
+    }
+    while (hits == 0 && frame < 40) {
+        boxes_step(world, 1);
+        hits = boxes_events(world, CAROM_EVENT_HIT, 1, 0);
+        CHECK_EQ(boxes_events(world, CAROM_EVENT_WAKE, 1, 0), hits);
+        frame++;
+    }
+    CHECK_EQ(frame, 25); /* 2450 of 100 each */
+    CHECK_NEAR(boxes_state(world, 0).velocity.c[0] + boxes_state(world, 1).velocity.c[0],
+               BOXES_Q40(100), 1 << 12);
+    CHECK_LESS(boxes_state(world, 0).velocity.c[0], BOXES_Q40(60));
+}
+#endif
+
 const struct test tests_step[] = {
     {"step/climbed", climbed},
     {"step/carried", carried},
@@ -286,5 +361,10 @@ const struct test tests_step[] = {
     {"step/events", events},
     {"step/thrown_out", thrown_out},
     {"step/full_at_the_end", full_at_the_end},
+    {"step/no_side", no_side},
+#ifdef TEST_LONG
+    {"step/many_faces", many_faces},
+#endif
+
     {0},
 };

@@ -8,6 +8,8 @@
 
 enum { WALL, A, B, C };
 
+static struct step step;
+
 /* A world without gravity, with a cap of hits, and a stationary box at a place. */
 static void begin(uint8_t cap, int64_t x, int64_t z)
 {
@@ -128,10 +130,37 @@ static void test_no_room_to_touch(void)
     CHECK(joint_of(0).broken);
 }
 
+/* A body of an island that a kinematic one leads by a joint: A, by C, and by no other body; B is led by none. */
+static void test_led(void)
+{
+    uint32_t a, b;
+
+    begin(0, 4 * UNIT, 0);
+    CHECK_EQ(add(0, 0, 0), A);
+    CHECK_EQ(add(0, 4 * UNIT, 0), B);
+    def.kinematic = true;
+    def.velocity.c[2] = ONE / 64;
+    CHECK_EQ(add(0, UNIT, 0), C);
+    {
+        struct carom_joint_def j = joint(CAROM_JOINT_BALL, A, C, 0, UNIT / 2, 0);
+
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+        j = joint(CAROM_JOINT_BALL, B, WALL, 2 * UNIT, 2 * UNIT, 0);
+        CHECK_EQ(carom_joint_add(world, &j), 1);
+    }
+    step_begin(&step, world);
+    rest_find_islands(&world->rest, world->bodies, world->body_count, NULL, 0);
+    a = world->bodies[A].island.lowest;
+    b = world->bodies[B].island.lowest;
+    CHECK_EQ(world->joint_steps->led_by(&step, a, ISLAND_END), A);
+    CHECK_EQ(world->joint_steps->led_by(&step, a, C), A);
+    CHECK_EQ(world->joint_steps->led_by(&step, a, WALL), ISLAND_END);
+    CHECK_EQ(world->joint_steps->led_by(&step, b, C), ISLAND_END);
+    CHECK_EQ(world->joint_steps->led_by(&step, b, ISLAND_END), ISLAND_END);
+}
+
 const struct test tests_step_joint[] = {
-    {"step_joint/stands", test_stands},
-    {"step_joint/no_room", test_no_room},
-    {"step_joint/wakes", test_wakes},
-    {"step_joint/no_room_to_touch", test_no_room_to_touch},
-    {0},
+    {"step_joint/stands", test_stands}, {"step_joint/no_room", test_no_room},
+    {"step_joint/wakes", test_wakes},   {"step_joint/no_room_to_touch", test_no_room_to_touch},
+    {"step_joint/led", test_led},       {0},
 };
