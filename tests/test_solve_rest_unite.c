@@ -234,7 +234,7 @@ static void test_line(void)
     put(2, (double[3]){-31.9995, 0, 0}); /* side by side they have one */
     rest_unite(&hand.rest, 1, false);
     CHECK(moves_as_one(2));
-    CHECK(memcmp(before, &hand.states[1], sizeof before) != 0);
+    CHECK_DIFFER(memcmp(before, &hand.states[1], sizeof before), 0);
 }
 
 const struct test tests_solve_rest_unite[] = {
