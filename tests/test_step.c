@@ -106,6 +106,34 @@ static void climbed(void)
     }
 }
 
+/*
+ * Two cubes of 2^-9 of a unit, 60 units apart, count as touching and have gained energy. About the line through both they have no
+ * inertia that 30 bits would show, so no motion is known to which they could be slowed: they go on.
+ */
+static void in_a_line(void)
+{
+    struct carom_body_def def = boxes_def(CUBE, -30720, 0, 0);
+    struct body_state before[2];
+
+    begin();
+    boxes_make(CUBE, 1, 1, 1);
+    def.mass_q20 = 1 << 20;
+    def.velocity.c[0] = BOXES_Q40(100);
+    CHECK_EQ(boxes_add(world, &def), 0);
+    def.position.c[0] = BOXES_Q32(30720);
+    CHECK_EQ(boxes_add(world, &def), 1);
+    step_begin(&step, world);
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 3; k++) {
+            step.next->bodies[i].momentum.c[k] += BOXES_Q40(50 + i);
+        }
+    }
+    CHECK_EQ(step_note_touching(&step, &(struct pair){1, 0}), CAROM_OK);
+    memcpy(before, step.next->bodies, sizeof before);
+    step_limit_energy(&step);
+    CHECK_EQ(memcmp(before, step.next->bodies, sizeof before), 0);
+}
+
 /* A kinematic plate, as body 0, and two cubes on it, at a corner or in the middle. */
 static void pile_on(int at, double vx, double vy, double spin)
 {
@@ -356,6 +384,7 @@ static void many_faces(void)
 
 const struct test tests_step[] = {
     {"step/climbed", climbed},
+    {"step/in_a_line", in_a_line},
     {"step/carried", carried},
     {"step/asleep", asleep},
     {"step/events", events},
