@@ -101,7 +101,8 @@ static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const 
                                 false, 0,     0,     curve_units(curve, touch.sign * shift_q40)};
 
             hit->root_q30 = walk.t_q30;
-            hit->t_q30 = edges && scale_q30 < PARALLEL_Q30 && !boyse_steady(pair)
+            /* edges of steady pairs that touch have a scale of 1/16 or more: it has the digits of up */
+            hit->t_q30 = edges && scale_q30 < PARALLEL_Q30
                              ? last_apart(pair, c, pair->skin_q22 / 2, walk.t_q30)
                              : boyse_event_q30(&o, last_root, &walk, scale_q30);
             return true;

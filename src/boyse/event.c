@@ -74,8 +74,9 @@ static int32_t narrow_down(struct opening *o, struct sample far, struct sample n
             uint32_t part_q30 = curve_quotient_q30((uint32_t)(far.excess - o->slack / 2),
                                                    (uint32_t)far.excess - (uint32_t)near.excess);
 
+            /* below the width: the part is below 1, since near's excess is below 0 */
             step = (int32_t)((uint64_t)part_q30 * (uint32_t)width >> 30);
-            step = step < 1 ? 1 : step >= width ? width - 1 : step;
+            step = step < 1 ? 1 : step;
         }
         s = sample_at(o, far.t_q30 + step);
         if (s.excess >= 0) {

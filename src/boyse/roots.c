@@ -169,9 +169,7 @@ bool walk_next(struct walk *walk, const struct curve *q)
             return walk->t_q30 < CAROM_ONE_Q30;
         }
         step = walk_step_q30(walk, q);
-        if (step <= 1) {
-            return true;
-        }
+        CAROM_ASSERT(step > 1); /* |P| is above the noise, and a slope below 2^29 */
         advance(walk, step);
         walk->stride = BOYSE_STRIDE_Q30;
     }

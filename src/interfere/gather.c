@@ -144,7 +144,7 @@ int interfere_visit_pair(struct interfere *in, const struct interfere_pairs *all
     m->first = (uint16_t)in->own_first;
     m->count = (uint16_t)(pool->used - in->own_first);
     m->kept = keep && in->whole && !in->error;
-    m->found = m->count > 0 || !in->whole;
+    m->found = m->count > 0; /* who hands over a chunk has a candidate more */
     if (in->error == INTERFERE_TOO_MANY && span->more && in->whole) {
         m->count = old;
         m->kept = true;

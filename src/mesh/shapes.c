@@ -275,7 +275,7 @@ static int turn(struct carom_mesh_raw *raw, const struct carom_shape_room *room,
     if (error) {
         return error;
     }
-    if (t->radius < 1 || t->radius > COORDINATE_MAX || t->half < 0 || t->half > COORDINATE_MAX) {
+    if (t->radius < 1 || t->radius > COORDINATE_MAX || t->half > COORDINATE_MAX) {
         return CAROM_ERR_ARGUMENT;
     }
     if (t->round && t->half + t->radius > COORDINATE_MAX) {

@@ -34,7 +34,7 @@ static int32_t nearest_q30(const int64_t to_q32[3], const carom_v3_q32 *way)
         along += (int64_t)d * x;
         square += (int64_t)d * d;
     }
-    return along <= 0 || square == 0 ? 0 : part_q30(along, square);
+    return along <= 0 ? 0 : part_q30(along, square);
 }
 
 /* True if the ray's box and the box of the body's sphere are apart. */
@@ -75,7 +75,8 @@ static bool outside(const int64_t at_q32[3], int32_t radius_q22)
 
 /*
  * d / along in q30, to nearest, |d| <= |along|; of numbers above 32 bits the upper ones count.
- * Bounds: below 2^62 after the shift.
+ * Bounds: below 2^62 after the shift. A shift leaves `by` at least 2^31, so the unit that it may add
+ * to |d| is half a unit of the quotient, which rounds away.
  */
 static int32_t slope(int64_t d, int64_t along, int shift)
 {
@@ -87,7 +88,8 @@ static int32_t slope(int64_t d, int64_t along, int shift)
     }
     n = n + by / 2;
     n = n / by - (n % by < 0);
-    return (int32_t)(n > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : n < -CAROM_ONE_Q30 ? -CAROM_ONE_Q30 : n);
+    CAROM_ASSERT(carom_abs(n) <= CAROM_ONE_Q30);
+    return (int32_t)n;
 }
 
 /* The main axis: the largest component's. */
@@ -99,18 +101,16 @@ static int main_axis(const int64_t d[3])
 }
 
 /*
- * Set the ray through `at`, the part t of the way, in the mesh's coordinates. Returns false if no
- * direction is left.
+ * Set the ray through `at`, the part t of the way, in the mesh's coordinates. The way has a component
+ * of 2^12 or more in world axes, so its largest one is above 2^11 in any axes.
  */
-static bool set_ray(struct query_ray *ray, const int64_t at_q32[3], const int64_t way_q32[3],
+static void set_ray(struct query_ray *ray, const int64_t at_q32[3], const int64_t way_q32[3],
                     int32_t t_q30)
 {
     const int z = main_axis(way_q32), up = ray->mesh->raw.quantum_bits - 2;
     int shift = fix_bits((uint64_t)carom_abs(way_q32[z])) - 32;
 
-    if (way_q32[z] == 0) {
-        return false;
-    }
+    CAROM_ASSERT(way_q32[z] != 0);
     shift = shift > 0 ? shift : 0;
     ray->axis[2] = z;
     ray->axis[0] = fix_next(z);
@@ -124,7 +124,6 @@ static bool set_ray(struct query_ray *ray, const int64_t at_q32[3], const int64_
     ray->up = way_q32[z] > 0;
     ray->length_q32 = carom_abs(way_q32[z]);
     ray->end_q32 = ray->length_q32;
-    return true;
 }
 
 bool query_carry(struct query_ray *out, const struct carom_ray *ray, const struct body *body,
@@ -159,5 +158,6 @@ bool query_carry(struct query_ray *out, const struct carom_ray *ray, const struc
         at[k] += carom_shl(body->def.mesh->mass.centre.c[k], 10);
     }
     out->mesh = body->def.mesh;
-    return set_ray(out, at, way, t_q30);
+    set_ray(out, at, way, t_q30);
+    return true;
 }

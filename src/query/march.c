@@ -53,7 +53,8 @@ static bool clip(const struct query_ray *ray, int i, int32_t *low, int32_t *high
         }
         if (low_out || high_out) {
             int64_t from = edge * ((int64_t)1 << (30 - PLACE_BITS)) - ray->at_q30[i];
-            int64_t z = slope != 0 ? from * (1 << PLACE_BITS) / slope : *low;
+            /* the ray is not square to the axis, or both ends would be out */
+            int64_t z = from * (1 << PLACE_BITS) / slope;
 
             if (z > *low && z < *high) {
                 *(low_out ? low : high) = (int32_t)z;

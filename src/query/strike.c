@@ -83,7 +83,7 @@ static inline int crossing(const struct query_ray *ray, const struct seen p[3])
 }
 
 /*
- * floor(n / d), bit by bit, for 0 <= n < 2^62 d and d > 0 of at most 70 bits. n is below 2^116, and
+ * floor(n / d), bit by bit, for d <= n < 2^62 d and d > 0 of at most 70 bits. n is below 2^116, and
  * the remainder is below 2 d.
  */
 static int64_t divide(const struct fix_wide *n, const struct fix_wide *d)
@@ -92,15 +92,8 @@ static int64_t divide(const struct fix_wide *n, const struct fix_wide *d)
     struct fix_wide rest = *n, by = *d;
     int64_t quotient = 0;
 
-    if (shift < 0) {
-        return 0;
-    }
-    if (shift > 63) {
-        fix_wide_shift_up(&by, 63);
-        fix_wide_shift_up(&by, shift - 63);
-    } else {
-        fix_wide_shift_up(&by, shift);
-    }
+    CAROM_ASSERT(shift >= 0 && shift < 64);
+    fix_wide_shift_up(&by, shift);
     for (; shift >= 0; shift--) {
         quotient = 2 * quotient;
         if (rest.hi > by.hi || (rest.hi == by.hi && rest.lo >= by.lo)) {
@@ -121,7 +114,8 @@ static int64_t divide(const struct fix_wide *n, const struct fix_wide *d)
  *
  * Bounds: sides are below 2^16, n below 2^34, n . corner below 2^51. `at` is below 2^49 if the ray
  * passes through the box; the numerator is below 2^86 and the denominator below 2^66. Counted from
- * 2^16 quanta below the origin z is positive and below 2^17 quanta, at most 2^42 in q32.
+ * 2^16 quanta below the origin z is 2^15 quanta or more, since the ray meets the face between its
+ * corners, and below 2^17 quanta: 2^27 .. 2^42 in q32.
  */
 static int64_t meeting(const struct query_ray *ray, const struct seen p[3])
 {

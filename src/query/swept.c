@@ -105,7 +105,7 @@ static bool is_before(const struct swept *s, const struct boyse_hit *hit)
         return s->from_q30 < s->hit_from_q30;
     }
     if (hit->t_q30 != s->hit.t_q30 || s->number != s->body) {
-        return hit->t_q30 < s->hit.t_q30 || (hit->t_q30 == s->hit.t_q30 && s->number < s->body);
+        return hit->t_q30 < s->hit.t_q30; /* of equal hits the lower body's, which came first */
     }
     return candidate_compare(&hit->candidate, &s->hit.candidate) < 0;
 }
@@ -198,18 +198,15 @@ static int ask_part(struct swept *s)
 
 /*
  * End of what still matters of the part: if the known hit is in this part, the hit plus a little,
- * for equally early ones.
+ * for equally early ones; that may end a little beyond the part, which does no harm.
  */
 static int32_t end_of_part(const struct swept *s)
 {
     int64_t part_q30 = s->to_q30 - s->from_q30;
-    int32_t hit_q30;
 
-    if (!s->found || s->hit_from_q30 != s->from_q30) {
-        return s->to_q30;
-    }
-    hit_q30 = s->from_q30 + (int32_t)(part_q30 * s->hit.t_q30 >> 30) + 2;
-    return hit_q30 < s->to_q30 ? hit_q30 : s->to_q30;
+    return s->found && s->hit_from_q30 == s->from_q30
+               ? s->from_q30 + (int32_t)(part_q30 * s->hit.t_q30 >> 30) + 2
+               : s->to_q30;
 }
 
 /* Test the windows of a stretch, up to its first hit. */
