@@ -176,6 +176,61 @@ static void test_turn(void)
     }
 }
 
+/*
+ * The largest body at a spin whose |L| / m takes more than 60 bits: a turn of half a radian, as above.
+ */
+static void test_large_turn(void)
+{
+    const int32_t tau_q30 = CAROM_ONE_Q30 / 10000;
+    const carom_v3_q40 v = {{0, 0, 0}}, w = {{0, (int64_t)4999 << 40, 0}};
+
+    shape_box(&shape, 7, 4608, 4608, 4608);
+    shape_body(&shape, true, &body, &state);
+    body_set_mass(&body, fix_scale(1, 0));
+    body_set_motion(&body, &state, &v, &w);
+    /* a cube of 36 units: J is 36^2 / 6 */
+    CHECK_NEAR(state.angular.c[1] >> 40, 216 * 4999, 2);
+    CHECK_EQ(fix_bits3(state.angular.c), 61);
+    body_predict(&body, &state, tau_q30, NULL);
+    CHECK_NEAR(body.path.u.c[1], real_round(4999. * tau_q30 / 2), 4);
+    CHECK_EQ(body.path.u.c[0] | body.path.u.c[2], 0);
+    CHECK(body.path.turns);
+}
+
+/* A body with the inverse inertia of the cube times 2^-e. */
+static void make_inert(struct carom_mesh *mesh, int e)
+{
+    make_cube();
+    *mesh = shape.mesh;
+    mesh->inverse.e += e;
+    mesh->inverse_rest.e += e;
+    body.def.mesh = mesh;
+    body_set_mass(&body, fix_scale(1, 0));
+}
+
+/*
+ * Inertias that no convex body has, but a mesh with a part inside out may: the limit of calm momenta is m / 2n, n near J^-1, up
+ * to 2^20, and 0 where it has no digit; a large inertia keeps a small momentum from turning the body.
+ */
+static void test_odd_inertia(void)
+{
+    const carom_v3_q40 least = {{1, 0, 0}};
+    struct carom_mesh mesh;
+
+    make_inert(&mesh, 0); /* J^-1 is 6 */
+    CHECK_NEAR(body.def.calm_angular_q40, ((int64_t)1 << 40) / 12, 1 << 21);
+    make_inert(&mesh, 40);
+    CHECK_EQ(body.def.calm_angular_q40, (uint64_t)1 << 60);
+    make_inert(&mesh, -80);
+    CHECK_EQ(body.def.calm_angular_q40, 0);
+    CHECK(!body_calm(&body, &state));
+    make_inert(&mesh, 40);
+    state.angular = least;
+    body_predict(&body, &state, CAROM_ONE_Q30, NULL);
+    CHECK_EQ(body.path.u.c[0] | body.path.u.c[1] | body.path.u.c[2], 0);
+    CHECK(!body.path.turns);
+}
+
 /* Axes of a torque-free body after `frames`, by small steps of the midpoint rule in double. */
 static void integrate(double axes[3][3], double inverse[3][3], const double l[3], int frames)
 {
@@ -625,6 +680,8 @@ const struct test tests_body[] = {
     {"body/matrix", test_matrix},
     {"body/normalise", test_normalise},
     {"body/turn", test_turn},
+    {"body/large_turn", test_large_turn},
+    {"body/odd_inertia", test_odd_inertia},
     {"body/nutation", test_nutation},
     {"body/tumble", test_tumble},
     {"body/needle", test_needle},

@@ -274,7 +274,38 @@ static void test_path_sweep(void)
     }
 }
 
+/*
+ * A body that turns against its region, by 1/4 + 1/4 radian in each path: the bound on what it has turned off never falls and ends
+ * at the largest number, and the region holds no more.
+ */
+static void test_turned_off(void)
+{
+    struct test_random r = {4};
+    int32_t before = 0;
+
+    throw_box(&r, 1, 0);
+    state.angular.c[2] = 0;
+    body_set_motion(&body, &state, &(carom_v3_q40){{0, 0, 0}},
+                    &(carom_v3_q40){{0, 0, (int64_t)1 << 38}});
+    body_predict(&body, &state, CAROM_ONE_Q30, NULL);
+    body_region_begin(&body, &state, CAROM_ONE_Q30, 8 * (int64_t)CAROM_ONE_Q30, INT32_MAX);
+    for (int k = 0; k < 3; k++) {
+        state.angular.c[k] = -state.angular.c[k];
+    }
+    body_predict(&body, &state, CAROM_ONE_Q30, NULL);
+    for (int n = 1; n <= 8; n++) {
+        body_region_advance(&body, CAROM_ONE_Q30, CAROM_ONE_Q30);
+        CHECK_AT_LEAST(body.search.region.turned_off_q30, before);
+        before = body.search.region.turned_off_q30;
+        CHECK(n > 3 || real(before, 30) >= 0.49 * n);
+    }
+    CHECK_EQ(before, INT32_MAX);
+    CHECK_EQ(body.search.region.elapsed_q30, 8 * (int64_t)CAROM_ONE_Q30);
+    CHECK(!body_region_holds(&body, CAROM_ONE_Q30));
+}
+
 const struct test tests_body_region[] = {
+    {"body_region/turned_off", test_turned_off},
     {"body_region/holds", test_holds},
     {"body_region/region_sweep", test_region_sweep},
     {"body_region/path_sweep", test_path_sweep},

@@ -3,6 +3,7 @@
  * The paper's four kernels as special cases, with times worked out by hand, and the start of a
  * slice.
  */
+#include "boyse/place.h"
 #include "lib/duo.h"
 #include "lib/real.h"
 #include "lib/test.h"
@@ -280,6 +281,95 @@ static void test_flat_ridges(void)
     }
 }
 
+/* -------------------------------------------------------- the ends of formats */
+
+/*
+ * A side of the box comes down on the middle of a field of 256 x 256 units, whose vertices are farther from its centre than the finest
+ * format of P allows for.
+ */
+static void test_large_field(void)
+{
+    struct boyse_hit hit;
+
+    above(0.1, 0.05, 0.2, false);
+    shape_plane(&duo.shape[1], 7, 2, 16384);
+    shape_body(&duo.shape[1], false, &duo.body[1], &duo.state[1]);
+    duo_set_paths((double[3]){0, 0, -0.25}, still, NULL);
+    CHECK_EQ(duo.pair.view[1].fine, 0);
+    CHECK(first_of_all(CANDIDATE_FACE_VERTEX, &hit));
+    check_time(&hit, (0.2 - 600. / 4096 - real(duo.pair.skin_q22 / 2, 22)) / 0.25, 0.25);
+}
+
+/* Bounds that no q22 number holds become the largest: far and fast bodies, seen from a body that turns. */
+static void test_far_bounds(void)
+{
+    const double far = 400, fast = 100, turn = 0.48;
+    const double s = turn / 2, reach = real_sqrt(3) * (far + fast);
+
+    above(far, far, far, false);
+    duo_set_motion(1, still, (double[3]){0, 0, turn});
+    shape_box(&duo.shape[1], 12, 4096, 4096, 4096);
+    duo_begin(true);
+    for (int k = 0; k < 3; k++) {
+        duo.state[0].position.c[k] = (int64_t)far << 32;
+    }
+    duo_set_motion(1, still, (double[3]){0, 0, turn});
+    duo_set_paths((double[3]){fast, fast, fast}, still, NULL);
+    CHECK_MORE(real_sqrt(3) * fast + 2 * s * reach, 512);
+    CHECK_EQ(duo.pair.view[0].seen.way_q22, INT32_MAX);
+    CHECK_LESS(real(duo.pair.view[0].fixed.way_q22, 22), 180);
+}
+
+/* A vertex too far aside of a face that turns for P's format: its P has no root. */
+static void test_far_aside(void)
+{
+    int64_t a_q40[BOYSE_DEGREE + 1];
+    int degree;
+
+    above(0, 0, 0, false);
+    shape_box(&duo.shape[1], 12, 4096, 4096, 4096);
+    duo_begin(true);
+    duo.state[0].position.c[0] = (int64_t)100 << 32;
+    duo_set_motion(1, still, (double[3]){0, 0, 0.25});
+    duo_set_paths(still, still, NULL);
+    for (uint32_t n = 0; n < 8 * 12; n++) {
+        struct candidate c = {0, CANDIDATE_VERTEX_FACE, n % 8, n / 8};
+
+        boyse_place_start(&duo.pair, &c);
+        degree = boyse_polynomial(&duo.pair, &c, a_q40);
+        CHECK_MORE(a_q40[0], 0);
+        for (int k = 1; k <= degree; k++) {
+            CHECK_EQ(a_q40[k], 0);
+        }
+    }
+}
+
+/* Two edges across each other whose lines are more than 512 units apart: the largest number of q22, or its opposite. */
+static void test_far_edges(void)
+{
+    uint32_t far = 0;
+
+    above(0, 490, 490, false);
+    shape_box(&duo.shape[1], 12, 4096, 4096, 4096);
+    duo_begin(false);
+    duo.state[0].position.c[1] = duo.state[0].position.c[2] = (int64_t)490 << 32;
+    duo.state[0].rotation = (carom_quat_q30){{992008094, 410903207, 0, 0}};
+    duo_set_paths(still, still, NULL);
+    for (uint32_t n = 0; n < 18 * 18; n++) {
+        struct candidate c = {0, CANDIDATE_EDGE_EDGE, n / 18, n % 18};
+        struct boyse_touch touch;
+        struct duo_features f;
+
+        duo_features_at(&f, &c, 0);
+        if (f.sine > 0.1 && real_abs(f.gap) > 513) {
+            boyse_touch(&duo.pair, &c, 0, &touch);
+            CHECK_EQ(touch.gap_q22, f.gap * touch.sign > 0 ? INT32_MAX : -INT32_MAX);
+            far |= touch.gap_q22 > 0 ? 1 : 2;
+        }
+    }
+    CHECK_EQ(far, 3);
+}
+
 /* ----------------------------------------------------------------- the start */
 
 /* A corner above the plane, at `gap` units of q22, moves at `speed`, at most a unit a frame. */
@@ -322,7 +412,62 @@ static void test_at_start(void)
     CHECK(!start_at(skin, 0, &hit));
 }
 
+/*
+ * A cube's edge over another's, along y but for an angle of 1/200, at `gap` units of q22; it comes down at `speed` and turns a little.
+ * True if it hits; sets the gap at the start.
+ */
+static bool ridges_at(int32_t gap, double speed, int32_t *found_q22)
+{
+    const double eighth = 992008094, other = 410903207, half_yaw = 0.0025;
+    struct boyse_touch touch;
+    struct boyse_hit hit;
+    uint32_t roots = 0, facing = 0;
+    bool any = false;
+
+    above(0, 0, 2 * real_sqrt(0.5), true);
+    shape_box(&duo.shape[0], 12, 4096, 4096, 4096);
+    shape_body(&duo.shape[0], true, &duo.body[0], &duo.state[0]);
+    duo.state[0].position.c[2] =
+        real_round(2 * real_sqrt(0.5) * real_power2(32)) + carom_shl(gap, 10);
+    duo.state[0].rotation = (carom_quat_q30){{(int32_t)eighth, -(int32_t)(half_yaw * other),
+                                              (int32_t)other, (int32_t)(half_yaw * eighth)}};
+    body_normalise(&duo.state[0].rotation);
+    duo_set_paths((double[3]){0, 0, -speed}, (double[3]){0, 0, 0.0001}, NULL);
+    for (uint32_t n = 0; n < 18 * 18; n++) {
+        struct candidate c = {0, CANDIDATE_EDGE_EDGE, n / 18, n % 18};
+
+        if (shape_owns_edge(&duo.shape[0], c.i) && shape_owns_edge(&duo.shape[1], c.j)) {
+            boyse_touch(&duo.pair, &c, 0, &touch);
+            if (touch.valid && touch.normal.c[2] > CAROM_ONE_Q30 / 10 * 9 &&
+                touch.gap_q22 < duo.pair.skin_q22) {
+                facing++;
+                *found_q22 = touch.gap_q22;
+                any = boyse_first(&duo.pair, &c, &hit, &roots);
+            }
+        }
+    }
+    CHECK_EQ(facing, 1);
+    return any;
+}
+
+/* Nearly parallel edges that overlap by more than half a skin, or come to: no hit. From farther apart it is one. */
+static void test_deep_ridges(void)
+{
+    int32_t gap_q22, skin;
+
+    CHECK(ridges_at(64, 0.001, &gap_q22));
+    CHECK_NEAR(gap_q22, 64, 8);
+    skin = duo.pair.skin_q22;
+    for (int32_t deep = -16; deep < 48; deep += 4) {
+        bool hits = ridges_at(-skin / 2 - deep, 0.001, &gap_q22);
+
+        CHECK_NEAR(gap_q22, -skin / 2 - deep, 8);
+        CHECK(gap_q22 > -skin / 2 || !hits);
+    }
+}
+
 const struct test tests_boyse[] = {
+    {"boyse/deep_ridges", test_deep_ridges},
     {"boyse/translating_vertex", test_translating_vertex},
     {"boyse/translating_face", test_translating_face},
     {"boyse/translating_edge", test_translating_edge},
@@ -330,6 +475,10 @@ const struct test tests_boyse[] = {
     {"boyse/turning_face", test_turning_face},
     {"boyse/turning_edge", test_turning_edge},
     {"boyse/flat_ridges", test_flat_ridges},
+    {"boyse/large_field", test_large_field},
+    {"boyse/far_bounds", test_far_bounds},
+    {"boyse/far_aside", test_far_aside},
+    {"boyse/far_edges", test_far_edges},
     {"boyse/at_start", test_at_start},
     {0},
 };

@@ -628,6 +628,114 @@ static void test_faces_full(void)
     CHECK_MORE(several, 0);
 }
 
+/* Put the box on the plane z = 0. */
+static void lie_down(void)
+{
+    states[0].position.c[2] = (int64_t)614 << 20;
+    place(0);
+    place(1);
+}
+
+/* Of two pairs the first is too large: the second one is not gathered. */
+static void test_too_large(void)
+{
+    static const struct pair two[2] = {{0, 1}, {0, 1}};
+    struct collector to;
+
+    shape_plane(&shape_b, 9, FIELD, 512);
+    make(0);
+    lie_down();
+    CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
+    CHECK_MORE(to.count, 0);
+    bodies[0].search.reach_q22 = INT32_MAX / 2;
+    memset(&to, 0, sizeof to);
+    to.base.visit = collect;
+    to.set = &found;
+    CHECK_EQ(interfere_visit(&work, bodies, two, 2, &to.base), CAROM_ERR_RANGE);
+    CHECK_EQ(to.count, 0);
+    CHECK_EQ(work.pair, 0);
+}
+
+static const struct mesh_moving in_step = {mesh_drift_vertex,    mesh_drift_edge,
+                                           mesh_drift_face,      mesh_list_face,
+                                           interfere_area_under, interfere_make_lists};
+
+/* Make b a surface whose z-lists are made in a step, in `entries` at a time. */
+static void make_moving(uint32_t entries)
+{
+    static struct carom_surface surface;
+    struct collector to;
+
+    surface.does = &in_step;
+    surface.mesh = &shape_b.mesh;
+    shape_b.mesh.surface = &surface;
+    make(0);
+    lie_down();
+    CHECK_EQ(gather(&found, entries, CANDIDATES, FACES, &to), CAROM_OK);
+}
+
+/* A gather that may find no candidate ends at the first, though more chunks of z-lists would follow. */
+static void test_too_many(void)
+{
+    const struct interfere_pairs all = {bodies, pairs, 1};
+    struct interfere_span span = {0, 0, CAROM_ONE_Q30, UINT32_MAX, false};
+    struct collector to;
+    uint32_t whole;
+
+    shape_plane(&shape_b, 11, FIELD, 512);
+    make_moving(1);
+    memset(&meeting, 0, sizeof meeting);
+    memset(&to, 0, sizeof to);
+    to.base.visit = collect;
+    to.set = &found;
+    work.meetings = &meeting;
+    interfere_forget_lists(&work);
+    work.candidate_count = 0;
+    CHECK_EQ(interfere_visit_pair(&work, &all, 0, &span, true, &to.base), CAROM_OK);
+    CHECK_MORE(entry_pool.refused, 0);
+    whole = work.candidate_count;
+    span.most = 0;
+    work.candidate_count = 0;
+    interfere_forget_lists(&work);
+    CHECK_EQ(interfere_visit_pair(&work, &all, 0, &span, true, &to.base), INTERFERE_TOO_MANY);
+    CHECK_MORE(work.candidate_count, 0);
+    CHECK_LESS(work.candidate_count, whole);
+    shape_b.mesh.surface = NULL;
+}
+
+/* A face is listed for an area that it reaches into with its second or third corner alone. */
+static void test_listed_corner(void)
+{
+    for (int turn = 0; turn < 3; turn++) {
+        for (int axis = 0; axis < 2; axis++) {
+            struct interfere_area area = {{-512, -512}, {512, 512}};
+            struct interfere_place from = {0, 0};
+
+            /* one square, a triangle at each side of its diagonal */
+            shape_plane(&shape_b, 11, 1, 1024);
+            for (int f = 0; f < 2; f++) {
+                uint16_t *c = shape_b.faces[f], first = c[0];
+
+                for (int k = 0; k < turn; k++, first = c[0]) {
+                    c[0] = c[1];
+                    c[1] = c[2];
+                    c[2] = first;
+                }
+            }
+            CHECK_EQ(
+                carom_mesh_build(&shape_b.mesh, &shape_b.raw, shape_b.block, sizeof shape_b.block),
+                CAROM_OK);
+            make_moving(ENTRIES);
+            area.high[axis] = -300; /* it grows by a part of its width */
+            interfere_forget_lists(&work);
+            CHECK(interfere_make_lists(&work, &shape_b.mesh, &area, &from));
+            CHECK_EQ(from.face, 2);
+            CHECK_AT_LEAST(entry_pool.used, 2);
+        }
+    }
+    shape_b.mesh.surface = NULL;
+}
+
 static void test_order(void)
 {
     static const struct candidate sorted[] = {{0, 0, 0, 5}, {0, 0, 0, 6}, {0, 0, 3, 1},
@@ -689,10 +797,19 @@ static void test_far_area(void)
 }
 
 const struct test tests_interfere[] = {
-    {"interfere/plane", test_plane},           {"interfere/field", test_field},
-    {"interfere/fine_field", test_fine_field}, {"interfere/solid", test_solid},
-    {"interfere/motion", test_motion},         {"interfere/paths", test_paths},
-    {"interfere/chunks", test_chunks},         {"interfere/faces_full", test_faces_full},
-    {"interfere/order", test_order},           {"interfere/far_area", test_far_area},
-    {"interfere/nothing", test_nothing},       {0},
+    {"interfere/plane", test_plane},
+    {"interfere/field", test_field},
+    {"interfere/fine_field", test_fine_field},
+    {"interfere/solid", test_solid},
+    {"interfere/motion", test_motion},
+    {"interfere/paths", test_paths},
+    {"interfere/chunks", test_chunks},
+    {"interfere/faces_full", test_faces_full},
+    {"interfere/order", test_order},
+    {"interfere/far_area", test_far_area},
+    {"interfere/nothing", test_nothing},
+    {"interfere/too_large", test_too_large},
+    {"interfere/too_many", test_too_many},
+    {"interfere/listed_corner", test_listed_corner},
+    {0},
 };

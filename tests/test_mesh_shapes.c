@@ -25,18 +25,23 @@ static struct carom_mesh mesh;
  * Six times the volume between a face's plane and a place, in cubic quanta: negative for a place
  * inside.
  */
-static int64_t outside6(const uint16_t face[3], const int16_t place[3])
+static int64_t outside6_of(int16_t (*v)[3], const uint16_t face[3], const int16_t place[3])
 {
     int64_t e[3][3];
 
     for (int k = 0; k < 3; k++) {
-        e[0][k] = vertices[face[1]][k] - vertices[face[0]][k];
-        e[1][k] = vertices[face[2]][k] - vertices[face[0]][k];
-        e[2][k] = place[k] - vertices[face[0]][k];
+        e[0][k] = v[face[1]][k] - v[face[0]][k];
+        e[1][k] = v[face[2]][k] - v[face[0]][k];
+        e[2][k] = place[k] - v[face[0]][k];
     }
     return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
            e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+static int64_t outside6(const uint16_t face[3], const int16_t place[3])
+{
+    return outside6_of(vertices, face, place);
 }
 
 /* Six times the volume, by tetrahedra from the origin. */
@@ -237,6 +242,38 @@ static void any_size(void)
 }
 
 /*
+ * Small balls of many sides whose rounded vertices lie in no convex order: a vertex is outside the last face that was put, which
+ * looks outwards.
+ */
+static void dented(void)
+{
+    /* the dent is found at a pole; by the first triangle of a square, along either diagonal; by the second */
+    static const int32_t cases[][2] = {{16, 7}, {20, 13}, {56, 61}, {16, 5}};
+    static const int16_t origin[3];
+
+    for (int n = 0; n < 4; n++) {
+        const uint32_t sides = (uint32_t)cases[n][0];
+        const uint32_t v_count = CAROM_SPHERE_VERTICES(sides), f_count = CAROM_SPHERE_FACES(sides);
+        int16_t(*v)[3] = (int16_t(*)[3])block;
+        uint16_t(*f)[3] = (uint16_t(*)[3])(v + v_count);
+        const struct carom_shape_room large = {v, f, v_count, f_count, 10};
+        uint32_t last = f_count - 1, outside = 0;
+
+        CHECK_AT_MOST((v_count + f_count) * sizeof *v, sizeof block);
+        memset(block, 0xff, sizeof block);
+        CHECK_EQ(carom_shape_sphere(&raw, &large, cases[n][1], sides), CAROM_ERR_RANGE);
+        while (f[last][0] == 0xffff) {
+            last--;
+        }
+        CHECK_LESS(outside6_of(v, f[last], origin), 0);
+        for (uint32_t i = 0; i < v_count; i++) {
+            outside += outside6_of(v, f[last], v[i]) > 0;
+        }
+        CHECK_MORE(outside, 0);
+    }
+}
+
+/*
  * The largest number of sides at the largest radius; only the first vertices, which lie on a
  * circle.
  */
@@ -306,6 +343,7 @@ const struct test tests_mesh_shapes[] = {
     {"mesh_shapes/capsule", capsule},
     {"mesh_shapes/cylinder_and_cone", cylinder_and_cone},
     {"mesh_shapes/any_size", any_size},
+    {"mesh_shapes/dented", dented},
     {"mesh_shapes/largest_circle", largest_circle},
     {"mesh_shapes/refusals", refusals},
     {0},

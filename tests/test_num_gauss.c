@@ -64,6 +64,11 @@ static void hand_cases(void)
     CHECK_EQ(solve(1), 0);
     CHECK_NEAR(w.x_q40[0], 0x5555555555, 1);
 
+    /* 2^58 = (2^29 - 1) (2^29 + 1) + 1: the first solution is off by 2^-87, which x_q40 does not have. */
+    system_in[0][0] = (1 << 29) + 1;
+    CHECK_EQ(solve(1), 0);
+    CHECK_EQ(w.x_q40[0], 1 << 11);
+
     /* A right-hand side of zero. */
     system_in[0][1] = 0;
     CHECK_EQ(solve(1), 0);

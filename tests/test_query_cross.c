@@ -122,6 +122,33 @@ static void test_triangles(void)
     CHECK_LESS(meet, PAIRS * 9 / 10);
 }
 
+/*
+ * A triangle rounded to a line, of which its longest edge is all: through the middle of a triangle, beside it, in its plane across it,
+ * and in its plane beside it.
+ */
+static void test_line(void)
+{
+    static const struct interfere_vec t[3] = {{{-5, -5, 0}}, {{5, -5, 0}}, {{0, 7, 0}}};
+    static const int lines[4][2][3] = {{{0, 0, -4}, {1, 0, 8}},
+                                       {{9, 0, -4}, {9, 0, 8}},
+                                       {{-9, 1, 0}, {9, 1, 0}},
+                                       {{-9, -6, 0}, {9, -6, 0}}};
+
+    for (int n = 0; n < 4; n++) {
+        for (int order = 0; order < 3; order++) {
+            struct interfere_vec line[3], *end = &line[order], *next = &line[(order + 1) % 3];
+
+            for (int k = 0; k < 3; k++) {
+                end->c[k] = 2 * lines[n][0][k];
+                next->c[k] = 2 * lines[n][1][k];
+                line[(order + 2) % 3].c[k] = lines[n][0][k] + lines[n][1][k];
+            }
+            CHECK_EQ(cross_triangles(t, line), n == 0 || n == 2);
+            CHECK_EQ(cross_triangles(line, t), n == 0 || n == 2);
+        }
+    }
+}
+
 /* ---------------------------------------------------------------------- poses */
 
 static struct shape shape[4];
@@ -307,6 +334,7 @@ static void test_inside(void)
 }
 
 const struct test tests_query_cross[] = {{"query_cross/triangles", test_triangles},
+                                         {"query_cross/line", test_line},
                                          {"query_cross/near", test_near},
                                          {"query_cross/inside", test_inside},
                                          {0}};

@@ -37,6 +37,11 @@ static void test_by_hand(void)
     CHECK_EQ(carom_closest_points(world, 1, 0, &c), CAROM_ERR_OVERLAP);
     world->now->bodies[1].position.c[2] = -9 * UNIT;
     CHECK_EQ(carom_closest_points(world, 1, 0, &c), CAROM_ERR_OVERLAP);
+    shape_box(&shape[2], 12, 512, 512, 512); /* inside the box, and nowhere at its surface */
+    CHECK_EQ(asked_add(world, &shape[2].mesh, true, UNIT / 4, UNIT / 8, -9 * UNIT, upright), 2);
+    CHECK_EQ(carom_closest_points(world, 1, 2, &c), CAROM_ERR_OVERLAP);
+    CHECK_EQ(carom_closest_points(world, 2, 1, &c), CAROM_ERR_OVERLAP);
+    CHECK_EQ(carom_body_remove(world, 2), CAROM_OK);
     world->now->bodies[1].position.c[2] = 501 * UNIT;
     CHECK_EQ(carom_closest_points(world, 1, 0, &c), CAROM_ERR_RANGE);
     /* beside the plane's border, above it: 3, 4 and 5 */

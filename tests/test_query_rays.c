@@ -75,6 +75,13 @@ static void test_by_hand(void)
     ray = ray_of(-2 * UNIT, UNIT / 8, UNIT / 16, UNIT, 0, 0);
     CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), 1);
     CHECK_EQ(hit.t_q30, CAROM_ONE_Q30);
+    CHECK_EQ(hit.body, 2);
+    /* the same face of a later body is as far: the lower body's counts */
+    CHECK_EQ(asked_add(world, &shape[0].mesh, false, 0, 0, 0, upright), 3);
+    CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), 1);
+    CHECK_EQ(hit.t_q30, CAROM_ONE_Q30);
+    CHECK_EQ(hit.body, 2);
+    CHECK_EQ(carom_body_remove(world, 3), CAROM_OK);
     ray.way.c[0]--;
     CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), 0);
     ray = ray_of(-UNIT, UNIT / 8, UNIT / 16, UNIT, 0, 0);
@@ -321,6 +328,59 @@ static void test_march(void)
     CHECK_MORE(struck, RAYS / 4);
 }
 
+/* A visitor that one hit is enough for: it ends the ray where it starts. */
+static void note_one(struct query_struck *self, struct query_ray *ray, const struct query_strike *s)
+{
+    note(self, ray, s);
+    ray->end_q32 = 0;
+}
+
+/* A ray that begins outside a field is ended by its first hit: no other one follows. */
+static void test_ended(void)
+{
+    struct test_random r = {6};
+    uint32_t more = 0;
+
+    shape_field(&shape[1], 9, 20, 100, 150, 3);
+    for (int n = 0; n < RAYS; n++) {
+        struct body body;
+        struct body_state state;
+        struct query_ray carried, again;
+        struct carom_ray ray = random_ray(&r, 2 * UNIT);
+
+        shape_body(&shape[1], false, &body, &state);
+        if (query_carry(&carried, &ray, &body, &state)) {
+            struct all_hits one = {{note_one}, 0, {{0, 0}}}, all = {{note}, 0, {{0, 0}}};
+
+            carried.back = true;
+            again = carried;
+            query_march(&carried, &one.base);
+            query_march(&again, &all.base);
+            CHECK_EQ(one.count, all.count > 0);
+            more += all.count > 1;
+        }
+    }
+    CHECK_MORE(more, 0);
+}
+
+/*
+ * A ray that goes up beside a box, 2 quanta and the least more from its side, and comes nearer by less than that: the march takes it
+ * for one that passes the border of its margin, though the border's line is far above. It meets nothing.
+ */
+static void test_along_margin(void)
+{
+    struct query_ray ray = {&shape[0].mesh, {0, 1, 2}, {0, 0}, {-1, 0}, 0, 0, true, true, 0};
+    struct all_hits found = {{note}, 0, {{0, 0}}};
+
+    shape_box(&shape[0], 12, 4096, 4096, 4096);
+    /* the ray's places along x have 30 bits, the march's 12; its height is 2 units, from one below the middle */
+    ray.at_q30[0] = ((int64_t)(2048 + 2) << 30) + (1 << 18) - 2048;
+    ray.start_q32 = -UNIT;
+    ray.length_q32 = ray.end_q32 = 2 * UNIT;
+    query_march(&ray, &found.base);
+    CHECK_EQ(found.count, 0);
+}
+
 /* ------------------------------------------------------------------- no change */
 
 /* Two worlds run the same steps; one of them is asked between its steps. Both stay equal. */
@@ -359,5 +419,7 @@ const struct test tests_query_rays[] = {{"query_rays/by_hand", test_by_hand},
                                         {"query_rays/watertight", test_watertight},
                                         {"query_rays/beside_edge", test_beside_edge},
                                         {"query_rays/march", test_march},
+                                        {"query_rays/ended", test_ended},
+                                        {"query_rays/along_margin", test_along_margin},
                                         {"query_rays/no_change", test_no_change},
                                         {0}};

@@ -54,6 +54,8 @@ static void test_overlap(void)
     CHECK_EQ(bodies[1], 2);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 1), CAROM_ERR_BODIES_FULL);
     CHECK_EQ(bodies[0], 1);
+    mesh = put(&shape[0].mesh, 600 * UNIT, 0, -7 * UNIT); /* far beside the plane */
+    CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), 0);
     mesh = put(&shape[0].mesh, UNIT, UNIT / 16, -7 * UNIT); /* below the plane */
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), 1);
     CHECK_EQ(bodies[0], 0);
@@ -124,6 +126,44 @@ static void test_by_hand(void)
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
     way = (struct carom_mesh_way){{{600 * UNIT, 0, 0}}, {{0, 0, 0}}};
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+}
+
+/*
+ * A plane of 256 x 256 units about its middle, and one with its origin far beside and below it, which no place near a body can be
+ * measured from: the cast over that one says so, in the first part of the way and before the next body.
+ */
+static void test_too_large(void)
+{
+    const struct carom_mesh_way way = {{{0, 0, -3 * UNIT}}, {{0, 0, CAROM_ONE_Q30 / 16}}};
+    struct carom_query_mesh mesh;
+    struct carom_mesh_hit hit;
+
+    shape_box(&shape[0], 12, 4096, 4096, 4096);
+    shape_plane(&shape[2], 7, 2, 16384);
+    for (int off = 0; off < 2; off++) {
+        struct carom_world *world = asked_world(0);
+        const int to[3] = {off * 16383, off * 16383, off * 16000};
+
+        for (uint32_t v = 0; v < shape[2].raw.vertex_count; v++) {
+            for (int k = 0; k < 3; k++) {
+                shape[2].vertices[v][k] = (int16_t)(shape[2].vertices[v][k] + to[k]);
+            }
+        }
+        CHECK_EQ(
+            carom_mesh_build(&shape[2].mesh, &shape[2].raw, shape[2].block, sizeof shape[2].block),
+            CAROM_OK);
+        CHECK_EQ(asked_add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
+        CHECK_EQ(asked_add(world, &shape[0].mesh, true, 0, 0, 300 * UNIT, upright), 1);
+        mesh = put(&shape[0].mesh, to[0] * (UNIT >> 7) + UNIT / 4, to[1] * (UNIT >> 7),
+                   to[2] * (UNIT >> 7) + 2 * UNIT);
+        hit.t_q30 = -1;
+        CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), off ? CAROM_ERR_RANGE : 1);
+        if (off) {
+            CHECK_EQ(hit.t_q30, -1);
+        } else { /* it comes down by 3/2 of 3 */
+            CHECK_NEAR(hit.t_q30, CAROM_ONE_Q30 / 2, CAROM_ONE_Q30 >> 10);
+        }
+    }
 }
 
 /* --------------------------------------------------------------- random scenes */
@@ -400,6 +440,7 @@ static void test_no_change(void)
 }
 
 const struct test tests_query_swept[] = {{"query_swept/overlap", test_overlap},
+                                         {"query_swept/too_large", test_too_large},
                                          {"query_swept/by_hand", test_by_hand},
                                          {"query_swept/random_ways", test_random_ways},
                                          {"query_swept/every_feature", test_every_feature},
