@@ -288,7 +288,7 @@ static void test_turned_off(void)
     body_set_motion(&body, &state, &(carom_v3_q40){{0, 0, 0}},
                     &(carom_v3_q40){{0, 0, (int64_t)1 << 38}});
     body_predict(&body, &state, CAROM_ONE_Q30, NULL);
-    body_region_begin(&body, &state, CAROM_ONE_Q30, 8 * (int64_t)CAROM_ONE_Q30, INT32_MAX);
+    body_region_begin(&body, &state, CAROM_ONE_Q30, 8 * (int64_t)CAROM_ONE_Q30, 1 << 20);
     for (int k = 0; k < 3; k++) {
         state.angular.c[k] = -state.angular.c[k];
     }
