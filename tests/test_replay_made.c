@@ -334,6 +334,7 @@ static void test_all_materials(void)
     static const uint8_t of_face[FACES] = {255, 255, 255, 255, 255, 255,
                                            255, 255, 255, 255, 255, 255};
     struct carom_body_state s;
+    size_t before;
 
     for (int bouncy = 0; bouncy < 2; bouncy++) {
         struct carom_world *world;
@@ -347,6 +348,10 @@ static void test_all_materials(void)
         }
         record_begin();
         CHECK_EQ(carom_record_world(&record, world, memory, sizeof memory), CAROM_OK);
+        before = file_bytes;
+        CHECK_EQ(carom_record_body_set_face_materials(&record, world, 0, materials, 256, of_face),
+                 CAROM_OK);
+        CHECK_MORE(file_bytes, before + 256); /* it is recorded, with all materials */
         record_steps(world, 30);
         play_recorded(world, 30);
         CHECK_EQ(carom_body_get(player.world, 1, &s), CAROM_OK);
