@@ -27,7 +27,7 @@ CHUNK = 20  # worlds a process
 SECONDS = 150  # for a world; its steps may take 60
 CUT_ALLOWED = 0.01  # as a part of all frames
 FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
-          "much work", "joint", "sensor", "other hash", "thrown"]
+          "much work", "joint", "sensor", "other hash"]
 KINDS = {"": "bodies", "m": "machines", "w": "wild machines"}
 SHARES = {"": 1, "m": 0.2, "w": 0.02}  # as a part of the number of worlds that was asked for
 LOST = "lost"  # the program ended early, or did not end

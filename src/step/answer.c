@@ -192,6 +192,27 @@ static int solve_island(struct step *s)
 }
 
 /*
+ * The last resort for an island that a solve did not part. It stops if it touches a stationary
+ * body, else it moves as one rigid body. `hard`: see step_carry_island.
+ */
+static void calm_island(struct step *s, uint32_t body, bool hard)
+{
+    uint32_t first = s->w->bodies[body].island.lowest;
+    bool grounded = false;
+
+    for (uint32_t i = 0; i < s->w->rest.list.pool->used; i++) {
+        const struct contact *c = &s->w->rest.list.contacts[i];
+        const struct pair *p = &s->w->pairs[c->key.pair];
+
+        grounded |= s->w->bodies[p->a].island.lowest == first && !s->w->bodies[p->b].def.moving;
+    }
+    if (!grounded || !step_carry_island(s, first, hard)) {
+        rest_unite(&s->w->rest, first, grounded);
+    }
+    s->w->stats.calmed++;
+}
+
+/*
  * Handle a pair that hits again where it was answered. The turn of a path is that of its middle, so
  * a long path may close a gap that opens by the present motion. Shorter paths do not, and they grow
  * again slice by slice. If these hit as well, the solve could not part the bodies.
@@ -207,7 +228,7 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats)
     if (repeats > STEP_CALM_AFTER + (turn ? STEP_SHORTER_MAX : 0) ||
         (s->w->meetings[number].hits > STEP_UNSETTLED_HITS &&
          (a->solve.unsettled || b->solve.unsettled))) {
-        step_calm_island(s, step_active(s, p->a) ? p->a : p->b, repeats > STEP_HARD_AFTER);
+        calm_island(s, step_active(s, p->a) ? p->a : p->b, repeats > STEP_HARD_AFTER);
     }
     if (turn && repeats > 0) {
         a->clock.shorter = (uint8_t)(a->clock.shorter + (a->clock.shorter < STEP_SHORTER_MAX));

@@ -429,9 +429,6 @@ int step_solve(struct step *s, bool warm)
             result = solve_rounds(s, false, false, &held);
         }
     }
-    if (w->joint_steps && result == CAROM_OK) {
-        step_keep_in_range(s);
-    }
     step_mark(w, w->rest.impacts > impacts ? CAROM_STAGE_IMPACT : CAROM_STAGE_REST);
     return result;
 }

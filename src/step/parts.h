@@ -264,17 +264,6 @@ int step_note_touching(struct step *s, const struct pair *p);
 /* ----------------------------------------------------------------------- energy */
 
 /*
- * The last resort for an island that a solve did not part. It stops if it touches a stationary
- * body, else it moves as one rigid body. `hard`: see step_carry_island.
- */
-void step_calm_island(struct step *s, uint32_t body, bool hard);
-/*
- * A solve that throws a body of joints out of the range of motion has failed. Its island goes on as
- * one body.
- */
-void step_keep_in_range(struct step *s);
-
-/*
  * Limit the energy of each island at the end of a frame. Contact may not add any, except by lifting
  * bodies within their skins; if it did, the momenta of the island are scaled down. Two causes
  * exist. A body in contact takes gravity before it moves, so one whose direction turns upwards

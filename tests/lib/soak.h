@@ -83,7 +83,6 @@ struct soak_result {
     long escaped_frame;        /* the first frame in which a body was outside of its room, 0:
                                 * none */
     int escaped;
-    bool thrown;         /* see SOAK_THROWN */
     int64_t momentum[3]; /* momentum of all bodies in range, if it is watched */
     long momentum_frame; /* the first frame that changed the sum of all momenta, 0: none */
     double step_seconds; /* time of the slowest step */
@@ -108,7 +107,6 @@ enum soak_fault {
     SOAK_JOINT,  /* a joint of an untouched group was off by more than allowed */
     SOAK_SENSOR, /* events and an overlap disagree */
     SOAK_OTHER,  /* a second run had another hash */
-    SOAK_THROWN, /* a body left a slow world without gravity, by its speed */
     SOAK_FAULTS
 };
 extern const char *const soak_fault_names[SOAK_FAULTS];

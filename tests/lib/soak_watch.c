@@ -10,8 +10,8 @@
 #define WORLD_SECONDS 60 /* a world whose steps take longer is stopped */
 
 const char *const soak_fault_names[SOAK_FAULTS] = {
-    "crosses",   "error",     "stands still", "cut short", "energy",     "momentum",
-    "slow step", "much work", "joint",        "sensor",    "other hash", "thrown"};
+    "crosses",   "error",     "stands still", "cut short", "energy",    "momentum",
+    "slow step", "much work", "joint",        "sensor",    "other hash"};
 
 double soak_seconds(void)
 {
@@ -270,7 +270,6 @@ bool soak_step(struct soak_world *w, struct soak_result *r)
         soak_machine_see(w);
     }
     crowd_watch(w->crowd, status, &r->tally);
-    r->thrown = w->gravity == 0 && w->pace <= SOAK_SLOW && r->tally.out > 0;
     soak_watch_still(w->crowd, &r->still, r->tally.frames);
     r->cut_run = status & CAROM_SUBSTEP_CAP ? r->cut_run + 1 : 0;
     r->cut_longest = r->cut_run > r->cut_longest ? r->cut_run : r->cut_longest;
@@ -311,8 +310,6 @@ bool soak_has(const struct soak_result *r, enum soak_fault fault)
         return r->seen && r->seen->sensor_frame > 0;
     case SOAK_OTHER:
         return r->seen && r->seen->other_frame > 0;
-    case SOAK_THROWN:
-        return r->thrown;
     default:
         return r->step_seconds > SOAK_STEP_SECONDS || r->unfinished;
     }
