@@ -636,7 +636,7 @@ static void lie_down(void)
     place(1);
 }
 
-/* Of two pairs the first is too large: the second one is not gathered. */
+/* The first of two pairs is too large: the second one is not gathered. */
 static void test_too_large(void)
 {
     static const struct pair two[2] = {{0, 1}, {0, 1}};

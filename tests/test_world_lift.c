@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a surface that the caller moves lifts, in rare cases: a body with a higher number below one with a lower number, a body that has
+ * A surface that the caller moves lifts bodies, in rare cases: a body with a higher number below one with a lower number, a body that has
  * left the world, more bodies above each other than a move lifts, no room for their pairs.
  */
 #include <string.h>

@@ -16,6 +16,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # host programs that judge the engine in seconds; the rest (soaks, fuzzers, oracles of many worlds) takes minutes
 PROGRAMS = ["host_head", "host_motion", "host_pools", "host_wake", "host_replay", "host_encounter", "host_roll", "host_bounce",
             "host_rest", "host_scenes", "host_sheet", "host_recall", "host_rules", "host_physics"]
+BUILT = ("tests", "matrix", "worlds", *PROGRAMS)
 COUNTED, DEBUG = "build/host-covered/", "host-debug/tests.elf"
 # without what debuggers want, so that objects that are the same code are the same bytes
 BUILD = ["make", "-s", "BOARD=host", "WARNINGS=-w -g0"]
@@ -55,7 +56,7 @@ def clone(number):
         subprocess.run(["git", "clone", "--quiet", "--no-local", ROOT, folder], check=True)
     subprocess.run(["git", "fetch", "--quiet", "origin", "HEAD"], cwd=folder, check=True)
     subprocess.run(["git", "reset", "--quiet", "--hard", "FETCH_HEAD"], cwd=folder, check=True)
-    make(folder, *("build/host/%s.elf" % name for name in ("tests", "matrix", "worlds", *PROGRAMS)), check=True)
+    make(folder, *("build/host/%s.elf" % name for name in BUILT), check=True)
     make(folder, "DEBUG=1", "build/" + DEBUG, check=True)
     return folder
 
@@ -85,7 +86,7 @@ def lines(folder, counts, program):
 
 def measured(folder):
     """[name, seconds, lines that it runs] of each test, and {program: lines that could run}."""
-    make(folder, "COVERED=1", *("%s%s.elf" % (COUNTED, name) for name in ("tests", "matrix", "worlds", *PROGRAMS)), check=True)
+    make(folder, "COVERED=1", *("%s%s.elf" % (COUNTED, name) for name in BUILT), check=True)
     rows, executable, counts = [], {}, os.path.join(folder, "build", "counts")
     for test in (Test(name, 0, {}, {}) for name in names(folder)):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime

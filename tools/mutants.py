@@ -35,6 +35,7 @@ import time
 
 import evidence
 import mutant_tests
+import plays
 import results
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -135,8 +136,7 @@ class Worker:
     def __init__(self, number, caught):
         self.folder, self.caught = mutant_tests.clone(number), caught
         self.tests = mutant_tests.known(self.folder)
-        self.plays = [list(row.values()) for part in ("plays", "worlds")
-                      for row in results.read(os.path.join(self.folder, "tests", part + ".csv"))]
+        self.plays = [row for part in plays.COLUMNS for row in plays.kept(part, self.folder)]
         self.links = mutant_tests.links(self.folder, {test.program for test in self.tests})
 
     def object_of(self, path):
@@ -158,13 +158,13 @@ class Worker:
     def passes(self, test):
         """True if a test succeeds in its time, no line is "not ok", and no play ends in another hash. The time is the
         processor's, so that a busy machine fails none."""
-        limit, columns = int(5 + SLOWER * test.seconds), 10 if test.program == "worlds.elf" else 5
+        limit, end = int(5 + SLOWER * test.seconds), 1 + plays.columns_of(test.program)
         process = subprocess.Popen(test.command(), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.DEVNULL, text=True, errors="replace", start_new_session=True,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1)))
         held = True
         for line in process.stdout:
-            if line.startswith("not ok") or line.startswith("scene ") and line.split()[1:columns] not in self.plays:
+            if line.startswith("not ok") or line.startswith("scene ") and line.split()[1:end] not in self.plays:
                 held = False
                 process.kill()
                 break
