@@ -12,8 +12,8 @@ is
     judged    no test notices, and tests/mutants_alive.csv gives the reason: it changes nothing, or costs alone
     alive     no test notices, and it is not listed there
     open      no test noticed in --seconds, and some were not asked
-Each worker has a clone of the last commit in build/mutants. It asks the tests that run the changed line (tools/mutant_tests.py), first
-those that caught most mutants of the folder for their time. Rows go to out/mutants.csv as they come. --resume keeps those that are there if
+Each worker has a clone of the last commit in build/mutants. It asks the tests that run the changed line (tools/mutant_tests.py): first
+the one that tests/mutants_caught.csv names, which --record writes, then those that caught most mutants of the folder for their time. Rows go to out/mutants.csv as they come. --resume keeps those that are there if
 src/ is the same, so parts of a whole run are merged; --again asks again for those that no test noticed. Mutants that are alive or
 open are printed, and count as missed. --record writes the share of those caught to docs/evidence.md.
 """
@@ -39,7 +39,8 @@ import plays
 import results
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-OUT, JUDGED = os.path.join(ROOT, "out", "mutants.csv"), os.path.join(ROOT, "tests", "mutants_alive.csv")
+OUT = os.path.join(ROOT, "out", "mutants.csv")
+JUDGED, CAUGHT = (os.path.join(ROOT, "tests", "mutants_%s.csv" % name) for name in ("alive", "caught"))
 COLUMNS = ["file", "line", "change", "column", "became", "result", "by", "seconds", "src"]
 SLOWER = 4  # a test may take so much more processor time as without a change, and a few seconds
 # suites of a folder whose names do not begin with it
@@ -115,19 +116,21 @@ class Caught:
 
     def __init__(self):
         self.counts, self.lock = collections.Counter(), threading.Lock()
+        self.before = {tuple(row.values())[:5]: row["by"] for row in results.read(CAUGHT)}
 
     def add(self, folder, name):
         with self.lock:
             self.counts[folder, name] += 1
 
-    def order(self, folder, tests):
-        """First those that caught most for their time; before any did, the folder's own suites, the quick ones, and those
-        that run most of the engine."""
+    def order(self, mutant, tests):
+        """First the test that caught the mutant in a former run; then those that caught most of its folder for their time; before
+        any did, the folder's own suites, the quick ones, and those that run most of the engine."""
+        folder, by = folder_of(mutant.file), self.before.get((mutant.file, code_of(mutant), *map(str, mutant[2:4]), mutant.became[1]))
         own = "tests.elf " + SUITES.get(folder, folder)
         first = {"worlds.elf": 5, "matrix.elf": 1}
-        return sorted(tests, key=lambda test: -(self.counts[folder, test.name] +
-                                               first.get(test.name, .1 if test.name.startswith(own) else .01)) /
-                      (test.seconds + .02))
+        return sorted(tests, key=lambda test: (test.name != by, -(self.counts[folder, test.name] +
+                                                                 first.get(test.name, .1 if test.name.startswith(own) else .01)) /
+                                               (test.seconds + .02)))
 
 
 class Worker:
@@ -173,12 +176,11 @@ class Worker:
 
     def noticed(self, mutant, seconds):
         """Whether a mutant that is built is caught, alive or open, and the first test that notices it."""
-        folder = mutant.file.split("/")[1]
         asked = [test for test in self.tests if mutant.line in test.lines.get(mutant.file, ())]
         if not any(mutant.line in test.executable.get(mutant.file, ()) for test in self.tests):
             asked = self.tests  # a line that the compiler does not count
         linked, spent, result = set(), 0, "alive"
-        for test in self.caught.order(folder, asked):
+        for test in self.caught.order(mutant, asked):
             if seconds and spent + test.seconds > seconds:
                 result = "open"
                 continue
@@ -189,7 +191,7 @@ class Worker:
                 linked.add(test.program)
             spent += test.seconds
             if not self.passes(test):
-                self.caught.add(folder, test.name)
+                self.caught.add(folder_of(mutant.file), test.name)
                 return "caught", test.name
         return result, ""
 
@@ -216,6 +218,10 @@ def judged():
     return {(row["file"], row["code"], row["change"], row["became"]): row["reason"] for row in results.read(JUDGED)}
 
 
+def folder_of(path):
+    return path.split("/")[1]
+
+
 def code_of(mutant):
     with open(os.path.join(ROOT, mutant.file)) as file:
         return file.read().split("\n")[mutant.line - 1].strip()
@@ -237,7 +243,7 @@ def run(mutants, jobs, seconds, known, others):
     for mutant in mutants:
         row = known.get(key_of(mutant))
         if row and row[5] == "caught":
-            caught.add(row[0].split("/")[1], row[6])
+            caught.add(folder_of(row[0]), row[6])
         elif row and row[5] in ("alive", "open") and judgement(mutant) in reasons:
             row[5] = "judged"
     asked, src = [mutant for mutant in mutants if key_of(mutant) not in known], source()
@@ -279,6 +285,17 @@ def write(rows):
         csv.writer(file, lineterminator="\n").writerows([COLUMNS, *sorted(rows, key=lambda row: (row[0], int(row[1]), row))])
 
 
+def keep_caught(rows):
+    """Write which test caught which mutant. The text of the line is the name, since lines move."""
+    with open(CAUGHT, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["file", "code", "change", "column", "became", "by"])
+        for row in sorted(rows, key=lambda row: (row[0], int(row[1]), row)):
+            if row[5] == "caught":
+                mutant = Mutant(row[0], int(row[1]), row[2], row[3], (0, row[4]))
+                writer.writerow([row[0], code_of(mutant), *row[2:5], row[6]])
+
+
 def former(again):
     """The rows of former runs of the same src/, by mutant; without those that more tests may change, if they are asked again."""
     src = source()
@@ -310,6 +327,7 @@ def main():
     print("%d mutants: %s; %.1f %% of %d caught" % (len(rows), ", ".join("%d %s" % (n, what) for what, n in sorted(counts.items())),
                                                     share, asked))
     if arguments.record:
+        keep_caught(rows)
         evidence.record("mutants", {"mutants": (len(rows), "fact"),
                                     "refused, or the same object": (counts["refused"] + counts["equal"], "fact"),
                                     "judged equal or of cost alone": (counts["judged"], "fact"),
