@@ -108,12 +108,16 @@ static void test_out(void)
     CHECK_EQ(height(3), before[3]);
 }
 
-/* Two boxes lie side by side, and there is room for one pair: nothing moves. */
+/* Two boxes lie side by side, and there is room for one pair: nothing moves. A third one lies beside the surface. */
 static void test_no_room(void)
 {
+    int64_t beside;
+
     begin(0);
     CHECK_EQ(add(-UNIT * 3 / 4, 0, 0), 1);
     CHECK_EQ(add(UNIT * 3 / 4, 0, 0), 2);
+    CHECK_EQ(add(8 * UNIT, 0, 0), 3);
+    beside = height(3);
     world->pools[CAROM_POOL_pairs].size = 1;
     REFUSE(raise_by(100), CAROM_ERR_PAIRS_FULL);
     CHECK_EQ(surface.raw.vertices[0][2], 0);
@@ -121,6 +125,7 @@ static void test_no_room(void)
     CHECK_EQ(carom_surface_move(world, FLOOR, (const int16_t(*)[3])at), CAROM_OK);
     CHECK_EQ(height(1), height(2));
     CHECK_MORE(height(1), HEIGHT(100));
+    CHECK_EQ(height(3), beside);
 }
 
 #ifdef TEST_LONG

@@ -121,9 +121,20 @@ static int adopt_woken(struct step *s)
     return result;
 }
 
+/* Add the contact of a hit to those of its island. */
+static int force_contact(struct step *s, const struct boyse_hit *hit)
+{
+    struct boyse_pair *pair = step_set_pair(s->w, hit->candidate.pair);
+
+    boyse_pair_for(pair, &hit->candidate);
+    return !hit->touch.valid || contact_force(&s->w->rest.list, pair, hit)
+               ? CAROM_OK
+               : CAROM_ERR_CONTACTS_FULL;
+}
+
 /*
- * Find the island of a hit and its contacts, the one of the hit included. Sleeping bodies that it
- * touches wake.
+ * Find the island of two bodies and its contacts, the one of their hit included, if there is one.
+ * Sleeping bodies that it touches wake.
  */
 static int gather_island(struct step *s, const struct pair *p, struct boyse_hit *hit)
 {
@@ -142,13 +153,8 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
             }
         }
         result = grow(s);
-        if (result == CAROM_OK) {
-            struct boyse_pair *pair = step_set_pair(w, hit->candidate.pair);
-
-            boyse_pair_for(pair, &hit->candidate);
-            if (hit->touch.valid && !contact_force(&w->rest.list, pair, hit)) {
-                result = CAROM_ERR_CONTACTS_FULL;
-            }
+        if (result == CAROM_OK && hit) {
+            result = force_contact(s, hit);
         }
         if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
             return result;
@@ -157,7 +163,9 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
         if (result < 0) {
             return result;
         }
-        hit->candidate.pair = (uint16_t)step_find_pair(w, p);
+        if (hit) {
+            hit->candidate.pair = (uint16_t)step_find_pair(w, p);
+        }
     }
 }
 
@@ -313,6 +321,7 @@ int step_answer(struct step *s, uint32_t number)
 int step_rejoin(struct step *s, uint32_t body)
 {
     struct carom_world *w = s->w;
+    const struct pair alone = {.a = (uint16_t)body, .b = (uint16_t)body};
     int result;
 
     w->stats.substeps++;
@@ -320,24 +329,11 @@ int step_rejoin(struct step *s, uint32_t body)
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body *b = &w->bodies[i];
 
-        b->clock.member = b->clock.woke = false;
         if (b->def.mesh && b->def.joined == w->bodies[body].def.joined && b->clock.shorter > 0) {
             b->clock.shorter--;
         }
     }
-    do {
-        join(s, body);
-        for (uint32_t i = 0; i < w->body_count; i++) {
-            if (w->bodies[i].clock.woke) {
-                join(s, i);
-            }
-        }
-        result = grow(s);
-        if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
-            break;
-        }
-        result = adopt_woken(s);
-    } while (result == CAROM_OK);
+    result = gather_island(s, &alone, NULL);
     if (result == CAROM_OK) {
         result = solve_island(s);
     }

@@ -142,18 +142,12 @@ static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v,
     return CAROM_OK;
 }
 
-/* True if bodies go far in regions that last because nothing was near, and a gather costs much. */
-static bool goes_on_far(const struct step *s, const struct pair *p)
+/* True if a body moves, and far in its region. */
+static bool goes_on_far(const struct step *s, uint32_t i)
 {
-    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    const struct body *b = &s->w->bodies[i];
 
-    if (face_pairs(a, b) < STEP_FACE_PAIRS_COSTLY) {
-        return false;
-    }
-    return (step_active(s, p->a) &&
-            a->search.region.length_q22 > a->def.radius_q22 / STEP_FAR_PARTS) ||
-           (step_active(s, p->b) &&
-            b->search.region.length_q22 > b->def.radius_q22 / STEP_FAR_PARTS);
+    return step_active(s, i) && b->search.region.length_q22 > b->def.radius_q22 / STEP_FAR_PARTS;
 }
 
 /*
@@ -178,8 +172,12 @@ static int gather_lasting(struct step *s, uint32_t number, struct step_visitor *
     struct pair_work *m = &s->w->meetings[number];
     int result = CAROM_OK;
 
-    /* bodies that go far are likely to have come near: then gather for the frame only */
-    if (goes_on_far(s, p)) {
+    /*
+     * Bodies that go far, in regions that last because nothing was near, are likely to have come
+     * near. A gather costs much here: gather for the frame only.
+     */
+    if (face_pairs(&s->w->bodies[p->a], &s->w->bodies[p->b]) >= STEP_FACE_PAIRS_COSTLY &&
+        (goes_on_far(s, p->a) || goes_on_far(s, p->b))) {
         result = gather_on(s, number, v, from_q30, CAROM_ONE_Q30, UINT32_MAX);
         from_q30 = CAROM_ONE_Q30;
     }
