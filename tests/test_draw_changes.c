@@ -14,6 +14,7 @@ enum { FRAMES = 240 };
 #else
 enum { FRAMES = 24 };
 #endif
+enum { EACH = 24, SOME = 5 }; /* so many frames are all drawn, and then every fifth */
 enum { WIDTH = 109, HEIGHT = 80, BODIES = 33 };
 
 static const uint8_t bits[] = {8, 16, 32, 4, 16}; /* bits of a pixel, by format */
@@ -59,7 +60,7 @@ static void compare_scene(const char *name, uint8_t format, enum carom_draw_styl
 {
     struct carom_config config = scene_config();
     struct carom_world *world = NULL;
-    uint32_t less = 0, changed = 0;
+    uint32_t less = 0, changed = 0, shown = 0;
 
     CHECK_EQ(scene_load(&scene, name, NULL, shape_scene_block, sizeof shape_scene_block), CAROM_OK);
     config.caps = scene.caps;
@@ -68,10 +69,14 @@ static void compare_scene(const char *name, uint8_t format, enum carom_draw_styl
     memset(buffers, 0, sizeof buffers);
     for (int frame = 1; frame <= FRAMES; frame++) {
         struct carom_picture picture = picture_of(full, format, sizeof scene_workspace);
-        int k = frame % 2;
+        int k = shown % 2;
 
         CHECK_AT_LEAST(scene_before(&scene, world, frame), 0);
         CHECK_AT_LEAST(carom_world_step(world), 0);
+        if (frame > EACH && frame % SOME != 0) {
+            continue;
+        }
+        shown++;
         picture.paint = paint;
         memset(full, 0, sizeof full);
         CHECK_EQ(carom_draw(world, scene.camera, &picture, style), CAROM_OK);
@@ -92,7 +97,7 @@ static void compare_scene(const char *name, uint8_t format, enum carom_draw_styl
         }
     }
     /* one head changes less than half of the picture, while it moves at all */
-    CHECK(paint || strcmp(name, "head") != 0 || (changed >= FRAMES / 4 && less >= changed / 2));
+    CHECK(paint || strcmp(name, "head") != 0 || (changed >= shown / 4 && less >= changed / 2));
 }
 
 static void scenes(void)
