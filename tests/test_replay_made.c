@@ -102,12 +102,12 @@ static void put_world(void)
     put_zeros(3 + 4); /* gravity; sleep, two bounds, and nobody is asked about contacts */
 }
 
-/* Body 0, still, of mesh 0. */
-static void put_body(void)
+/* Body 0 of mesh 0; `still` is 1 or 0 in a file that means something. */
+static void put_body(int still)
 {
     put(CAROM_CALL_body_add, 1);
     put_zeros(2); /* no body is meant; the mesh */
-    put_n(1);     /* stationary */
+    put_n(still);
     put_zeros(1 + 3 + 4 + 3 + 3 + 3 + 3 + 3);
 }
 
@@ -181,7 +181,7 @@ static void test_materials(void)
         put_header();
         put_mesh();
         put_world();
-        put_body();
+        put_body(1);
         put_materials(cases[i].body, cases[i].faces, cases[i].count);
         put_gravity();
         if (cases[i].right) {
@@ -192,6 +192,41 @@ static void test_materials(void)
     }
 }
 
+/* What is true or false is 1 or 0; other numbers are refused. */
+static void test_truth(void)
+{
+    for (int still = -1; still <= 3; still++) {
+        put_header();
+        put_mesh();
+        put_world();
+        put_body(still);
+        put_gravity();
+        if (still == 0 || still == 1) {
+            check_right();
+        } else {
+            CHECK_EQ(play_in(sizeof room), CAROM_ERR_FORMAT);
+        }
+    }
+}
+
+/* Vertices of a surface may be the last bytes of a file, which is refused if one of them is missing. */
+static void test_surface(void)
+{
+    put_header();
+    put_mesh();
+    put_world();
+    put_body(1);
+    put(CAROM_CALL_surface_move, 1);
+    put_zeros(1);
+    put_n(8);
+    for (int i = 0; i < 3 * 8; i++) {
+        put((uint16_t)corners[i / 3][i % 3], 2);
+    }
+    check_right();
+    file_bytes--;
+    CHECK_EQ(play_in(sizeof room), CAROM_ERR_FORMAT);
+}
+
 /* Memory may run out at each thing that takes some: the four parts of a mesh, the world, materials and their numbers. */
 static void test_memory(void)
 {
@@ -200,7 +235,7 @@ static void test_memory(void)
     put_header();
     put_mesh();
     put_world();
-    put_body();
+    put_body(1);
     put_materials(0, FACES, 2);
     put_gravity();
     check_right();
@@ -359,6 +394,35 @@ static void test_all_materials(void)
     }
 }
 
+/*
+ * A player has nothing that a world kept from frames before the recording, and the digests of its stages
+ * are the same: so the world has forgotten what it kept, of its first body and of its last.
+ */
+static void test_forgets(void)
+{
+    const struct carom_body_def falls = {
+        &mesh, .position = {{CAROM_POSITION_MM(400), 0, CAROM_POSITION_MM(1100)}},
+        .spin = {{0, CAROM_SPIN_MRAD_S(900, 60), CAROM_SPIN_MRAD_S(500, 60)}}};
+    const struct carom_body_def still = {&mesh, .stationary = true};
+
+    for (int frames = 1; frames < 40; frames += 3) {
+        for (int first = 0; first < 2; first++) {
+            struct carom_world *world;
+
+            memset(&record, 0, sizeof record);
+            world = begin(&plain);
+            CHECK_EQ(carom_body_add(world, first ? &still : &falls), 0);
+            CHECK_EQ(carom_body_add(world, first ? &falls : &still), 1);
+            record_steps(world, frames);
+            file_bytes = 0;
+            CHECK_EQ(carom_record_begin(&record, write_file, NULL, true, NULL), CAROM_OK);
+            CHECK_EQ(carom_record_world(&record, world, memory, sizeof memory), CAROM_OK);
+            record_steps(world, 30);
+            play_recorded(world, 30);
+        }
+    }
+}
+
 #if SIZE_MAX > UINT32_MAX
 /* More bytes than a recording can hold are no snapshot, and are not written. */
 static void test_too_many(void)
@@ -384,11 +448,14 @@ static void test_too_many(void)
 const struct test tests_replay_made[] = {
     {"replay_made/early", test_early},
     {"replay_made/materials", test_materials},
+    {"replay_made/truth", test_truth},
+    {"replay_made/surface", test_surface},
     {"replay_made/memory", test_memory},
     {"replay_made/run", test_run},
     {"replay_made/twice", test_twice},
     {"replay_made/mass", test_mass},
     {"replay_made/all_materials", test_all_materials},
+    {"replay_made/forgets", test_forgets},
 #if SIZE_MAX > UINT32_MAX
     {"replay_made/too_many", test_too_many},
 #endif
