@@ -37,6 +37,30 @@ static void covered_pixels(void)
     }
 }
 
+/* The middle of a picture of any sides is half of them from its corner. A side is 2 of the 4 units that a height spans. */
+static void odd_sides(void)
+{
+    struct carom_world *world = new_world();
+    struct carom_picture picture = picture_8();
+
+    add(world, &square, at(0, 0, 0), upright, false);
+    for (picture.height = 57; picture.height <= 63; picture.height += 2) {
+        for (picture.width = 55; picture.width <= 64; picture.width++) {
+            CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+            for (int y = 0; y < picture.height; y++) {
+                for (int x = 0; x < picture.width; x++) {
+                    /* half pixels from the middle; a side of an odd height meets no pixel's middle */
+                    int right = 2 * x + 1 - picture.width, down = 2 * y + 1 - picture.height;
+                    bool inside = 2 * carom_abs(right) < picture.height &&
+                                  2 * carom_abs(down) < picture.height;
+
+                    CHECK_EQ(ramp_at(x, y), inside ? DRAW_STATIONARY : DRAW_BACKGROUND);
+                }
+            }
+        }
+    }
+}
+
 static void shared_edge(void)
 {
     struct carom_world *world = new_world();
@@ -332,6 +356,7 @@ static void interfering(void)
 const struct test tests_draw[] = {
     {"draw/background", background},
     {"draw/covered_pixels", covered_pixels},
+    {"draw/odd_sides", odd_sides},
     {"draw/shared_edge", shared_edge},
     {"draw/nearer_hides", nearer_hides},
     {"draw/equal_depths", equal_depths},

@@ -433,8 +433,82 @@ static void room(void)
     CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
 }
 
+/* All faces of a vertex give it one shade, the mean, whichever asks first. */
+static void shared(void)
+{
+    static struct oracle o;
+    static uint16_t shade_room[VERTICES];
+    static const double light[3] = {0.6, 0, 0.8};
+    struct test_random random = {80};
+    struct draw_body body = {.mesh = &lump};
+    const struct draw_shades shades = {&body, shade_room, -CAROM_ONE_Q30, 1u << 28};
+
+    make_lump(&random);
+    find_shades(&o, light, -2);
+    for (int k = 0; k < 3; k++) {
+        body.light.c[k] = (int32_t)(light[k] * CAROM_ONE_Q30);
+    }
+    for (int first = 0; first < FACES; first += 9) {
+        int32_t of[VERTICES], corner[3];
+
+        memset(shade_room, 0, sizeof shade_room);
+        memset(of, -1, sizeof of);
+        for (int f = first; f < first + FACES; f++) {
+            carom_smooth.corners(&shades, (uint32_t)f % FACES, corner);
+            for (int k = 0; k < 3; k++) {
+                const int v = faces[f % FACES][k];
+
+                of[v] = of[v] < 0 ? corner[k] : of[v];
+                CHECK_EQ(corner[k], of[v]);
+                /* faces within a degree count as one of them: 16 sin(1 degree) shades, over 3 faces or more */
+                CHECK_NEAR(corner[k], (int32_t)(o.corner[f % FACES][k] * 256), 24);
+            }
+        }
+    }
+}
+
+/* List a triangle whose corners are at these places, q4, with the top one first; the colour that its shades give it. */
+static uint32_t tinted(const int32_t (*corner_q4)[2], const int32_t shade_q8[3],
+                       struct draw_list *list)
+{
+    static struct draw_vertex corners[4];
+    static struct draw_face listed[3];
+
+    *list = (struct draw_list){
+        .vertices = corners, .faces = &listed[2], .vertex_count = 4, .face_count = 2};
+    for (int k = 0; k < 3; k++) {
+        corners[k + 1].yx_q4 = corner_q4[k][1] * 65536 + (corner_q4[k][0] & 0xffff);
+    }
+    listed[1] = (struct draw_face){.corner = {1, 2, 3}, .colour = 2 * DRAW_SHADES};
+    carom_smooth.tint(list, &listed[1], shade_q8);
+    return listed[1].colour;
+}
+
+/* Faces in which more than 32 shades pass within a pixel, across or down, have one shade, the mean; others have a shade at each pixel. */
+static void thin(void)
+{
+    static const int32_t shade_q8[2][3] = {{31 * 256, 31 * 256, 256}, {31 * 256, 256, 31 * 256}};
+    struct draw_list list;
+
+    for (int32_t wide_q4 = 2; wide_q4 <= 32; wide_q4++) {
+        const int32_t across[3][2] = {{0, 0}, {0, 800}, {wide_q4, 0}};
+        const int32_t down[3][2] = {{0, 0}, {0, wide_q4}, {800, 0}};
+        const bool steep = 30 * 16 > 32 * wide_q4; /* 30 shades over that width */
+
+        if (30 * 16 != 32 * wide_q4) {
+            for (int turned = 0; turned < 2; turned++) {
+                CHECK_EQ(tinted(turned ? down : across, shade_q8[turned], &list),
+                         2 * DRAW_SHADES + (steep ? (31 + 31 + 1) / 3 : DRAW_TINT));
+                CHECK_EQ(list.face_count, steep ? 2 : 3);
+            }
+        }
+    }
+}
+
 const struct test tests_draw_smooth[] = {{"draw_smooth/oracle", oracle},
                                          {"draw_smooth/edges", edges},
                                          {"draw_smooth/boxes", boxes},
                                          {"draw_smooth/room", room},
+                                         {"draw_smooth/shared", shared},
+                                         {"draw_smooth/thin", thin},
                                          {0}};

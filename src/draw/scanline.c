@@ -232,7 +232,6 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
         s.safe = rect->x1 - 3;
         s.y = y;
         s.x = rect->x0;
-        s.top = NULL;
         s.under_count = 0;
         s.under_high = 0;
         s.ground = draw_ground(view, picture, y);
