@@ -344,6 +344,32 @@ static void hidden(void)
     }
 }
 
+/*
+ * More lines behind each other than a row remembers, each in front of those that began before it by less than it rises on its way:
+ * where all have begun the last one shows.
+ */
+static void stacked(void)
+{
+    static struct carom_paint_line stack[100];
+    struct carom_world *world = new_world();
+    struct carom_paint paint = {.lines = stack, .line_count = 100};
+    struct carom_picture picture = picture_8();
+
+    for (int i = 0; i < 100; i++) {
+        const int64_t z = Q32(1, 1000) * i, x = Q32(-3, 2) + Q32(1, 40) * i;
+
+        stack[i] = (struct carom_paint_line){at(x, Q32(1, 32), z + x / 16),
+                                             at(Q32(7, 4), Q32(1, 32), z + Q32(7, 64)),
+                                             (uint16_t)(100 + i)};
+    }
+    picture.paint = &paint;
+    CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+    /* the last one begins at column 47 or 48, and all end after 59 */
+    for (int x = 50; x < 58; x++) {
+        CHECK_EQ(pixels[31][x], 199);
+    }
+}
+
 /* The rows of the picture that the sender received; the last one sent counts. */
 static uint8_t sent[SIZE][SIZE];
 
@@ -461,6 +487,7 @@ const struct test tests_draw_lines[] = {
     {"draw_lines/in_at_random", in_at_random},
     {"draw_lines/in_anywhere", in_anywhere},
     {"draw_lines/hidden", hidden},
+    {"draw_lines/stacked", stacked},
     {"draw_lines/by_rows", by_rows},
     {"draw_lines/changes", changes},
     {"draw_lines/errors", errors},
