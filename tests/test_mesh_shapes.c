@@ -327,6 +327,8 @@ static void refusals(void)
              CAROM_ERR_RANGE); /* 1023 faces in 20 quanta */
     CHECK_EQ(carom_shape_capsule(&raw, &room, 1000, 0, 8), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_capsule(&raw, &room, 1000, 31768, 8), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_shape_capsule(&raw, &room, 1000, 31767, 8), CAROM_OK);
+    raw = before;
     CHECK_EQ(carom_shape_cylinder(&raw, &room, 1000, 1000, 2), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_cylinder(&raw, &room, 1000, 0, 8), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_cone(&raw, &room, 1000, 1000, 129), CAROM_ERR_ARGUMENT);

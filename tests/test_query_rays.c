@@ -89,6 +89,30 @@ static void test_by_hand(void)
     CHECK_EQ(hit.t_q30, 0);
 }
 
+/*
+ * The shortest rays, 2^-20 units, are half as long as the unit in which the march counts places on a plane of the coarsest quanta. They
+ * hit the plane exactly if it lies between their ends, wherever that is.
+ */
+static void test_shortest(void)
+{
+    enum { WAY = 1 << 12 };
+    struct carom_world *world = asked_world(0);
+    struct carom_ray_hit hit;
+
+    shape_plane(&shape[1], 7, 2, 512);
+    CHECK_EQ(asked_add(world, &shape[1].mesh, false, 0, 0, 0, upright), 0);
+    for (int64_t height = -WAY; height <= 2 * WAY; height += WAY / 8) {
+        const struct carom_ray ray = ray_of(UNIT / 8, UNIT / 16, height, 0, 0, -WAY);
+        const bool meets = height >= 0 && height <= WAY;
+
+        CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), meets);
+        if (meets) {
+            CHECK_EQ(hit.t_q30, height << 18);
+            CHECK_EQ(hit.point.c[2], 0);
+        }
+    }
+}
+
 static bool wants_2(void *context, int body)
 {
     return body != *(int *)context;
@@ -415,6 +439,7 @@ static void test_no_change(void)
 }
 
 const struct test tests_query_rays[] = {{"query_rays/by_hand", test_by_hand},
+                                        {"query_rays/shortest", test_shortest},
                                         {"query_rays/errors", test_errors},
                                         {"query_rays/watertight", test_watertight},
                                         {"query_rays/beside_edge", test_beside_edge},

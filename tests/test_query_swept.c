@@ -128,6 +128,28 @@ static void test_by_hand(void)
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
 }
 
+/* A box on the way to a box, and a later body behind that one, turned by an eighth: all of the answer is about the first one. */
+static void test_before_later(void)
+{
+    static const carom_quat_q30 eighth = {{992008094, 0, 0, 410903207}};
+    const struct carom_mesh_way way = {{{-4 * UNIT, 0, 0}}, {{0, 0, 0}}};
+    struct carom_world *world = asked_world(0);
+    struct carom_query_mesh mesh;
+    struct carom_mesh_hit hit;
+
+    shape_box(&shape[0], 12, 4096, 4096, 4096);
+    shape_box(&shape[1], 12, 2048, 1024, 512);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, true, 0, 0, 0, upright), 0);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, true, -2 * UNIT, 0, 0, eighth), 1);
+    mesh = put(&shape[1].mesh, 2 * UNIT, UNIT / 32, 0);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+    CHECK_EQ(hit.body, 0);
+    CHECK_MORE(hit.normal.c[0], CAROM_ONE_Q30 - 1000);
+    CHECK_MORE(shape[0].mesh.faces[hit.face].normal.c[0], CAROM_ONE_Q30 - 1000);
+    CHECK_LESS(shape[1].mesh.faces[hit.own_face].normal.c[0], -CAROM_ONE_Q30 + 1000);
+    CHECK_NEAR(hit.point.c[0], UNIT / 2, UNIT >> 10);
+}
+
 /*
  * A plane of 256 x 256 units about its middle, and one with its origin far beside and below it, which no place near a body can be
  * measured from: the cast over that one says so, in the first part of the way and before the next body.
@@ -442,6 +464,7 @@ static void test_no_change(void)
 const struct test tests_query_swept[] = {{"query_swept/overlap", test_overlap},
                                          {"query_swept/too_large", test_too_large},
                                          {"query_swept/by_hand", test_by_hand},
+                                         {"query_swept/before_later", test_before_later},
                                          {"query_swept/random_ways", test_random_ways},
                                          {"query_swept/every_feature", test_every_feature},
                                          {"query_swept/no_change", test_no_change},
