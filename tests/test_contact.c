@@ -409,6 +409,34 @@ static void test_clear(void)
     CHECK_MORE(hit, 0);
 }
 
+/* Two contacts with one normal are one, with the smaller gap, if they are nearer than two skins in the L1 norm. */
+static void test_merge_near(void)
+{
+    struct contact lower;
+    int32_t skin, down;
+
+    box_over_plane(300);
+    CHECK(find(700, 0));
+    lower = contacts[0];
+    skin = lower.skin_q22;
+    down = contact_arm_bits(&bodies[0]) - 22;
+    for (int32_t apart = 2 * skin - 3; apart <= 2 * skin + 3; apart++) {
+        for (int part = 0; part <= 4; part++) {
+            const int32_t x = apart * part / 4, y = x - apart;
+
+            contacts[0] = contacts[1] = lower;
+            contacts[1].key.i++;
+            contacts[1].gap_q22--;
+            contacts[1].side[0].arm_q30[0] += x * (1 << down);
+            contacts[1].side[0].arm_q30[1] += y * (1 << down);
+            pool.used = 2;
+            contact_merge(&list);
+            CHECK_EQ(pool.used, apart < 2 * skin ? 1 : 2);
+            CHECK_EQ(contacts[0].gap_q22, lower.gap_q22 - (apart < 2 * skin));
+        }
+    }
+}
+
 /* A corner on a vertex of the ground meets six faces there: one contact, with the smallest gap. */
 static void test_merge(void)
 {
@@ -794,6 +822,7 @@ const struct test tests_contact[] = {
     {"contact/order", test_order},
     {"contact/doubt", test_doubt},
     {"contact/clear", test_clear},
+    {"contact/merge_near", test_merge_near},
     {"contact/merge", test_merge},
     {"contact/thin", test_thin},
     {"contact/thin_keeps", test_thin_keeps},

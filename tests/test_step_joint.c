@@ -4,6 +4,7 @@
  * another body just where a slice ends.
  */
 #include "lib/jointed.h"
+#include "lib/real.h"
 #include "step/parts.h"
 
 enum { WALL, A, B, C };
@@ -159,8 +160,80 @@ static void test_led(void)
     CHECK_EQ(world->joint_steps->led_by(&step, b, ISLAND_END), ISLAND_END);
 }
 
+/* A kinematic body leads A up, more slowly than bodies that sleep; A stays awake. B hangs still on the world, and sleeps. */
+static void test_keeps_awake(void)
+{
+    const struct carom_config config = {
+        .caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -FALL}}, .sleep = true};
+    struct carom_joint_def j;
+
+    setup(0);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
+    def.stationary = true;
+    CHECK_EQ(add(4 * UNIT, 0, 0), WALL);
+    def.stationary = false;
+    CHECK_EQ(add(0, 0, 0), A);
+    CHECK_EQ(add(0, 4 * UNIT, 0), B);
+    def.kinematic = true;
+    def.velocity.c[2] = FALL / REST_QUIET_DIVISOR / 2;
+    CHECK_EQ(add(0, 0, UNIT), C);
+    j = joint(CAROM_JOINT_BALL, A, C, 0, 0, UNIT / 2);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    j = joint(CAROM_JOINT_BALL, B, CAROM_WORLD, 0, 4 * UNIT, UNIT / 2);
+    CHECK_EQ(carom_joint_add(world, &j), 1);
+    for (int frame = 0; frame < 3 * REST_QUIET_FRAMES; frame++) {
+        steps(1);
+        CHECK(!state_of(A).asleep);
+    }
+    CHECK(state_of(B).asleep);
+}
+
+/* A goes along with C, which turns about x as it flies along z: A gets the motion that C has there, and the energy counts as work. */
+static void test_goes_along(void)
+{
+    const int64_t spin = ONE / 50, speed = ONE / 64 - spin; /* A is at -1 along y from C */
+    const double inertia = (1. / 4 + 1. / 16) / 12;         /* of sides of 1/2 and 1/4 */
+    const double work2 =
+        real(speed, 40) * real(speed, 40) + inertia * real(spin, 40) * real(spin, 40);
+    const struct body_state *state;
+    const struct fix_wide *work;
+
+    begin(0, 4 * UNIT, 0);
+    CHECK_EQ(add(0, 0, 0), A);
+    CHECK_EQ(add(0, 4 * UNIT, 0), B);
+    def.kinematic = true;
+    def.velocity.c[2] = ONE / 64;
+    def.spin.c[0] = spin;
+    CHECK_EQ(add(0, UNIT, 0), C);
+    {
+        struct carom_joint_def j = joint(CAROM_JOINT_BALL, A, C, 0, UNIT / 2, 0);
+
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+    }
+    step_begin(&step, world);
+    for (uint32_t i = A; i <= C; i++) {
+        CHECK_EQ(step_set_path(&step, i), CAROM_OK);
+    }
+    rest_find_islands(&world->rest, world->bodies, world->body_count, NULL, 0);
+    CHECK(step_carry_island(&step, world->bodies[A].island.lowest, false));
+    state = &step.next->bodies[A];
+    work = body_work2(&world->bodies[A]);
+    for (int k = 0; k < 3; k++) {
+        CHECK_NEAR(state->momentum.c[k], k == 2 ? speed : 0, 1 << 10);
+        CHECK_NEAR(state->angular.c[k], k == 0 ? real_round(inertia * (double)spin) : 0, 1 << 10);
+    }
+    CHECK_NEAR(carom_shl(work->hi, 16) + (int64_t)(work->lo >> 48),
+               real_round(work2 * (double)UNIT), 4);
+    CHECK_EQ(step.next->bodies[B].momentum.c[2], 0);
+}
+
 const struct test tests_step_joint[] = {
-    {"step_joint/stands", test_stands}, {"step_joint/no_room", test_no_room},
-    {"step_joint/wakes", test_wakes},   {"step_joint/no_room_to_touch", test_no_room_to_touch},
-    {"step_joint/led", test_led},       {0},
+    {"step_joint/stands", test_stands},
+    {"step_joint/no_room", test_no_room},
+    {"step_joint/wakes", test_wakes},
+    {"step_joint/no_room_to_touch", test_no_room_to_touch},
+    {"step_joint/led", test_led},
+    {"step_joint/keeps_awake", test_keeps_awake},
+    {"step_joint/goes_along", test_goes_along},
+    {0},
 };

@@ -226,6 +226,44 @@ static void test_full(void)
     boxes_step(w, 1);
 }
 
+/*
+ * Two boxes pass the plate, half a unit deep in it, and one of them is removed. The other one rises until it is hardly in the
+ * plate, comes down, and still moves as if nothing were there.
+ */
+static void test_removed(void)
+{
+    make();
+    boxes_config.gravity = (carom_v3_q40){{0}};
+    for (int gone = 1; gone <= 2; gone++) {
+        struct carom_world *w = boxes_world(0), *alone = boxes_world(1);
+        struct carom_body_def def = boxes_def(PLATE, 0, 0, 0);
+        struct carom_body_state state;
+
+        def.stationary = true;
+        CHECK_EQ(boxes_add(w, &def), 0);
+        def = boxes_def(BOX, 30, 40, 278);
+        def.position.c[2] -= BOXES_Q32(1) / 2;
+        def.velocity.c[2] = BOXES_Q40(1) / 16;
+        def.overlap = CAROM_OVERLAP_PASS;
+        boxes_add(alone, &def);
+        for (int i = 1; i <= 2; i++) {
+            def.position.c[0] = BOXES_Q32(i == gone ? 1000 : 30);
+            CHECK_EQ(boxes_add(w, &def), i);
+        }
+        CHECK_EQ(carom_body_remove(w, gone), CAROM_OK);
+        for (int frame = 0; frame < 7; frame++) {
+            boxes_step_alike(w, 3 - gone, alone, 0);
+        }
+        state = boxes_state(alone, 0);
+        state.velocity.c[2] = -BOXES_Q40(1);
+        CHECK_EQ(carom_body_set(alone, 0, &state), CAROM_OK);
+        CHECK_EQ(carom_body_set(w, 3 - gone, &state), CAROM_OK);
+        for (int frame = 0; frame < 10; frame++) {
+            boxes_step_alike(w, 3 - gone, alone, 0);
+        }
+    }
+}
+
 /* At the edge of the world the shortest way out may leave it: then the shortest one that stays inside counts. */
 static void test_edge(void)
 {
@@ -268,12 +306,9 @@ static void test_edge(void)
     }
 }
 
-const struct test tests_world_overlap[] = {{"world_overlap/depth", test_depth},
-                                           {"world_overlap/who", test_who},
-                                           {"world_overlap/set", test_set},
-                                           {"world_overlap/push", test_push},
-                                           {"world_overlap/blocked", test_blocked},
-                                           {"world_overlap/pass", test_pass},
-                                           {"world_overlap/full", test_full},
-                                           {"world_overlap/edge", test_edge},
-                                           {0}};
+const struct test tests_world_overlap[] = {
+    {"world_overlap/depth", test_depth},     {"world_overlap/who", test_who},
+    {"world_overlap/set", test_set},         {"world_overlap/push", test_push},
+    {"world_overlap/blocked", test_blocked}, {"world_overlap/pass", test_pass},
+    {"world_overlap/full", test_full},       {"world_overlap/removed", test_removed},
+    {"world_overlap/edge", test_edge},       {0}};

@@ -17,8 +17,8 @@ enum { GROUND, LOW, HIGH, FAR, LED };
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape ground, box;
 
-/* Two boxes on each other and on a plane, one far from them, and a kinematic one. */
-static void make(void)
+/* Two boxes on each other and on a plane, one far from them, and a kinematic one; the upper one may be heavier. */
+static void make_heavy(uint32_t times)
 {
     struct carom_config config = {.caps = CAROM_CAPS(CAPS), .sleep = true};
     struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true, .friction_q16 = 1 << 15};
@@ -34,6 +34,7 @@ static void make(void)
         def.position.c[0] = CAROM_RATIO(i <= HIGH ? 0 : i, 1, 32) * 3;
         def.position.c[2] = CAROM_RATIO(i == HIGH ? 78 : 26, 100, 32);
         def.kinematic = i == LED;
+        def.mass_q20 = i == HIGH ? times << 20 : 1 << 20;
         CHECK_EQ(carom_body_add(world, &def), i);
     }
     steps(10);
@@ -42,6 +43,11 @@ static void make(void)
         PHASE_BEGIN(world->bodies[i].solve.work_phase, BODY_LOADED);
         body_loaded(&world->bodies[i])->forces = world_forces(&world->bodies[i]);
     }
+}
+
+static void make(void)
+{
+    make_heavy(1);
 }
 
 static bool good(void)
@@ -130,6 +136,27 @@ static void test_impulses(void)
     CHECK(!good());
 }
 
+/* No solve changes a speed by 2^18 units a frame: that times the mass of the lighter body is the largest impulse of a pair. */
+static void test_lighter(void)
+{
+    struct rest_warm *i, *end;
+
+    make_heavy(64);
+    i = world->now->warm;
+    end = i + world->now->warm_count;
+    while (i < end && !(i->a == HIGH && i->b == LOW)) {
+        i++;
+    }
+    CHECK(i < end);
+    if (i < end) {
+        CHECK_EQ(i->normal.c[2], CAROM_ONE_Q30);
+        i->impulse.c[2] = ONE << 18;
+        CHECK(good());
+        REFUSED(i->impulse.c[2], (ONE << 18) + (ONE << 10));
+        REFUSED(i->impulse.c[2], ONE << 19);
+    }
+}
+
 static void test_forces(void)
 {
     make();
@@ -213,11 +240,8 @@ static void test_joints(void)
 }
 
 const struct test tests_world_plausible[] = {
-    {"world_plausible/bodies", test_bodies},
-    {"world_plausible/pairs", test_pairs},
-    {"world_plausible/impulses", test_impulses},
-    {"world_plausible/forces", test_forces},
-    {"world_plausible/drives", test_drives},
-    {"world_plausible/joints", test_joints},
-    {0},
+    {"world_plausible/bodies", test_bodies},     {"world_plausible/pairs", test_pairs},
+    {"world_plausible/impulses", test_impulses}, {"world_plausible/lighter", test_lighter},
+    {"world_plausible/forces", test_forces},     {"world_plausible/drives", test_drives},
+    {"world_plausible/joints", test_joints},     {0},
 };

@@ -93,8 +93,28 @@ static void test_forces(void)
     }
 }
 
+/* The tag of a section ends the snapshot of a world without bodies, just before the sum: there is nothing that it could hold. */
+static void test_empty(void)
+{
+    static const char tags[][5] = {"FLT1", "THR1", "FOC1"};
+
+    make(true);
+    for (int i = 0; i < 3; i++) {
+        CHECK_EQ(carom_body_remove(world, i), CAROM_OK);
+    }
+    size = (size_t)carom_snapshot_save(world, saved, sizeof saved);
+    for (int i = 0; i < 3; i++) {
+        memcpy(changed, saved, size);
+        memcpy(changed + size - 8, tags[i], 4);
+        bytes_mend(changed, size + 4);
+        REFUSE(carom_snapshot_load(world, changed, size + 4), CAROM_ERR_FORMAT);
+    }
+    CHECK_EQ(carom_snapshot_load(world, saved, size), CAROM_OK);
+}
+
 const struct test tests_world_sections[] = {
     {"world_sections/pairs", test_pairs},
     {"world_sections/forces", test_forces},
+    {"world_sections/empty", test_empty},
     {0},
 };
