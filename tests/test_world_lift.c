@@ -128,6 +128,27 @@ static void test_no_room(void)
     CHECK_EQ(height(3), beside);
 }
 
+/* Box 1 lies on a flat part, and touches box 2, under which the surface rises: both go up by the same way, though 1 is not in its way. */
+static void test_touching(void)
+{
+    int64_t before;
+
+    begin(0);
+    for (int i = 0; i < 2; i++) {
+        CHECK_EQ(add((2 * i - 1) * (UNIT / 2 + (UNIT >> 14)), 0, 0), i + 1);
+    }
+    steps(1);
+    CHECK_EQ(events_of(CAROM_EVENT_BEGIN, 2, 1), 1);
+    before = height(1);
+    CHECK_EQ(height(2), before);
+    for (int v = 0; v < COUNT; v++) {
+        at[v][2] = (int16_t)(at[v][0] > 0 ? 200 : 0);
+    }
+    CHECK_EQ(carom_surface_move(world, FLOOR, (const int16_t(*)[3])at), CAROM_OK);
+    CHECK_MORE(height(2), before);
+    CHECK_EQ(height(1), height(2));
+}
+
 #ifdef TEST_LONG
 /* Each box of a pile lifts the next one. A move lifts 64 in a row, and is refused where there is one more. */
 static void test_pile(void)
@@ -153,6 +174,7 @@ const struct test tests_world_lift[] = {
     {"world_lift/below", test_below},
     {"world_lift/out", test_out},
     {"world_lift/no_room", test_no_room},
+    {"world_lift/touching", test_touching},
 #ifdef TEST_LONG
     {"world_lift/pile", test_pile},
 #endif

@@ -187,6 +187,37 @@ static void test_under(void)
     CHECK_MORE(boxes_state(w, box).position.c[2], BOXES_Q32(500));
 }
 
+/*
+ * Two boxes, one above the other, stand just below the platform, without gravity. A third one hits the lower one from below within a
+ * frame. Contacts with the platform are found last, and do not count: all three boxes go up together, with a third of its speed.
+ */
+static void test_from_below(void)
+{
+    struct carom_world *w = make(CAROM_ONE_WAY_Z);
+    int64_t top = BOXES_Q32(-64) - BOXES_Q32(1) / 4;
+
+    CHECK_EQ(carom_world_set_gravity(w, &(carom_v3_q40){{0}}), CAROM_OK);
+    for (int i = 1; i <= 3; i++) {
+        struct carom_body_def def = boxes_def(BOX, 700, -300, 0);
+
+        def.position.c[2] = top - BOXES_Q32(75);
+        top -= i == 1 ? BOXES_Q32(150) + BOXES_Q32(1) / 16 : BOXES_Q32(170);
+        def.velocity.c[2] = i == 3 ? BOXES_Q40(45) : 0;
+        CHECK_EQ(boxes_add(w, &def), i);
+    }
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_HIT, 3, 2), 1);
+    boxes_step(w, 3);
+    for (int i = 1; i <= 3; i++) {
+        const struct carom_body_state state = boxes_state(w, i);
+
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(state.velocity.c[k], k == 2 ? BOXES_Q40(15) : 0, BOXES_Q40(1) / 16);
+            CHECK_NEAR(state.spin.c[k], 0, BOXES_Q40(1) / 4);
+        }
+    }
+}
+
 static void test_refused(void)
 {
     struct carom_world *w = make(CAROM_ONE_WAY_Z);
@@ -196,7 +227,10 @@ static void test_refused(void)
     CHECK_EQ(carom_body_add(w, &def), CAROM_ERR_ARGUMENT);
 }
 
-const struct test tests_world_oneway[] = {
-    {"world_oneway/above", test_above},     {"world_oneway/below", test_below},
-    {"world_oneway/back", test_back},       {"world_oneway/under", test_under},
-    {"world_oneway/refused", test_refused}, {0}};
+const struct test tests_world_oneway[] = {{"world_oneway/above", test_above},
+                                          {"world_oneway/below", test_below},
+                                          {"world_oneway/back", test_back},
+                                          {"world_oneway/under", test_under},
+                                          {"world_oneway/from_below", test_from_below},
+                                          {"world_oneway/refused", test_refused},
+                                          {0}};

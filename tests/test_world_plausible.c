@@ -100,6 +100,8 @@ static void test_pairs(void)
     REFUSED(p[0].b, FAR);                       /* the higher number comes first */
     REFUSED(world->bodies[LOW].def.mesh, NULL); /* HIGH is on it */
     REFUSED(p[1].a, p[0].a - 1);                /* in order */
+    p[world->now->touching_count] = p[world->now->touching_count - 1];
+    REFUSED(world->now->touching_count, world->now->touching_count + 1); /* each once */
 }
 
 static void test_impulses(void)
