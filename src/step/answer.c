@@ -108,19 +108,6 @@ static int grow(struct step *s)
     return result;
 }
 
-/* Give bodies that were woken a region. */
-static int adopt_woken(struct step *s)
-{
-    int result = CAROM_OK;
-
-    for (uint32_t i = 0; i < s->w->body_count && result == CAROM_OK; i++) {
-        if (s->w->bodies[i].clock.woke && s->w->bodies[i].search.state == BODY_REGION_STANDING) {
-            result = step_adopt(s, i);
-        }
-    }
-    return result;
-}
-
 /* Add the contact of a hit to those of its island. */
 static int force_contact(struct step *s, const struct boyse_hit *hit)
 {
@@ -159,7 +146,7 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
         if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
             return result;
         }
-        result = adopt_woken(s);
+        result = step_adopt_woken(s);
         if (result < 0) {
             return result;
         }

@@ -454,11 +454,7 @@ static int find_contacts(struct step *s)
         if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
             break;
         }
-        for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-            if (w->bodies[i].clock.woke && w->bodies[i].search.state == BODY_REGION_STANDING) {
-                result = step_adopt(s, i);
-            }
-        }
+        result = step_adopt_woken(s);
     }
     return result == CAROM_OK ? step_settle_contacts(s, false) : result;
 }

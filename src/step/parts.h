@@ -100,8 +100,8 @@ int step_set_region(struct step *s, uint32_t i, int32_t slice_q30);
 /* Index of a pair; UINT32_MAX if its bodies are not near each other. */
 uint32_t step_find_pair(const struct carom_world *w, const struct pair *p);
 
-/* Give a body that was woken a region where it is. */
-int step_adopt(struct step *s, uint32_t i);
+/* Give bodies that were woken a region where they are. */
+int step_adopt_woken(struct step *s);
 
 /* ------------------------------------------------------------------------ pairs */
 

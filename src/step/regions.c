@@ -228,7 +228,8 @@ static int32_t foresee(struct step *s, uint32_t i)
     return slice_q30;
 }
 
-int step_adopt(struct step *s, uint32_t i)
+/* Give a body that was woken a region where it is. */
+static int adopt(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
     int result;
@@ -238,6 +239,18 @@ int step_adopt(struct step *s, uint32_t i)
     }
     result = step_set_region(s, i, foresee(s, i));
     body_place(b, &s->next->bodies[i]);
+    return result;
+}
+
+int step_adopt_woken(struct step *s)
+{
+    int result = CAROM_OK;
+
+    for (uint32_t i = 0; i < s->w->body_count && result == CAROM_OK; i++) {
+        if (s->w->bodies[i].clock.woke && s->w->bodies[i].search.state == BODY_REGION_STANDING) {
+            result = adopt(s, i);
+        }
+    }
     return result;
 }
 
@@ -300,7 +313,7 @@ static int begin_one(struct step *s, uint32_t i)
         }
         return CAROM_OK;
     }
-    return step_adopt(s, i);
+    return adopt(s, i);
 }
 
 /* Mark the pairs that pass through each other since an earlier frame. */

@@ -40,11 +40,6 @@ struct carom_world *boxes_world(int number)
     return world;
 }
 
-void boxes_fill(int number, int byte)
-{
-    memset(block[number], byte, sizeof block[number]);
-}
-
 struct carom_body_def boxes_def(int mesh, int x, int y, int z)
 {
     return (struct carom_body_def){.mesh = &boxes_mesh[mesh],

@@ -25,8 +25,6 @@ void boxes_make(int number, int x, int y, int z);
  * says otherwise.
  */
 struct carom_world *boxes_world(int number);
-/* Fill the memory in which a world will be made. */
-void boxes_fill(int number, int byte);
 void boxes_begin(void);
 /* The definition of a body of a mesh at a place. */
 struct carom_body_def boxes_def(int mesh, int x, int y, int z);
