@@ -2,6 +2,7 @@
 /* Several contacts at once. */
 #include "lib/hand.h"
 #include "lib/real.h"
+#include "solve/parts.h"
 
 #ifdef TEST_LONG
 #define CASES 20000
@@ -189,8 +190,63 @@ static void test_plastic(void)
     }
 }
 
+/*
+ * What an impact without rebound leaves at a gap of 0: V.N opens a quarter of a skin in a frame, if the path does not bend back. If it
+ * does, it makes up for that, and opens half a skin.
+ */
+static void test_target(void)
+{
+    const int64_t speed_q40 = -((int64_t)1 << 34);
+
+    for (int64_t bend = -1; bend <= 1; bend++) { /* of the mean speed, which has fewer bits */
+        struct contact *c = hand.contacts;
+        int64_t skin_q40;
+
+        hand_make_cube();
+        hand_begin(1, 0);
+        hand_set_surface(0, 0);
+        hand_touch_corners(0);
+        skin_q40 = carom_shl(c->skin_q22, 18);
+        c->work = hand.works;
+        c->speed_q40 = speed_q40;
+        c->chord_q28 = (int32_t)((speed_q40 >> 12) + bend);
+        rest_prepare_target(&hand.rest, c, CAROM_ONE_Q30);
+        CHECK(c->impact);
+        CHECK_NEAR(c->work->target_q40, bend < 0 ? 4096 + skin_q40 / 2 : skin_q40 / 4, 1 << 18);
+    }
+}
+
+/* K is 1 along an axis, and 2^n along the others: it has an inverse unless its determinant is below 2^9 units. */
+static void test_uneven(void)
+{
+    for (int n = 1; n <= 24; n++) {
+        struct contact *c = hand.contacts;
+        int32_t *inverse;
+        int axis = n % 3;
+
+        hand_make_cube();
+        hand_begin(1, 0);
+        hand_touch_corners(0);
+        c->work = hand.works;
+        PHASE_BEGIN(c->work->phase, CONTACT_INVERSE);
+        inverse = contact_inverse(c);
+        c->work->k_shift = (int8_t)(n + 2);
+        for (int k = 0; k < 6; k++) { /* the largest has 29 bits */
+            inverse[k] = k >= 3 ? 0 : k == axis ? 1 << (28 - n) : 1 << 28;
+        }
+        rest_invert(c);
+        /* the determinant is 2^28 2^28 2^(28 - n) over 2^60 */
+        CHECK_EQ(c->work->inverted, 24 - n >= 9);
+        for (int k = 0; k < 6 && c->work->inverted; k++) {
+            CHECK_NEAR(inverse[k], k >= 3 ? 0 : k == axis ? CAROM_ONE_Q30 : CAROM_ONE_Q30 >> n, 1);
+        }
+    }
+}
+
 const struct test tests_solve_rest_impacts[] = {
     {"solve_rest_impacts/impacts", test_impacts},
     {"solve_rest_impacts/plastic", test_plastic},
+    {"solve_rest_impacts/target", test_target},
+    {"solve_rest_impacts/uneven", test_uneven},
     {0},
 };

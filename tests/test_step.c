@@ -382,6 +382,29 @@ static void many_faces(void)
 }
 #endif
 
+/* Two rods lie end to end, so their centres are as far apart as both radii and a gap: they touch within five skins. */
+static void end_to_end(void)
+{
+    for (int gap = 1; gap <= 9; gap += 2) { /* of eighths */
+        struct carom_body_def def;
+        int64_t skin_q32;
+        int touch;
+
+        begin();
+        boxes_config.gravity = (carom_v3_q40){{0}};
+        world = boxes_world(0);
+        boxes_make(CUBE, 1000, 20, 20);
+        def = boxes_def(CUBE, 0, 0, 0);
+        CHECK_EQ(boxes_add(world, &def), 0);
+        skin_q32 = carom_shl(world->bodies[0].def.skin_q22, 10);
+        def.position.c[0] = BOXES_Q32(2000) + gap * skin_q32 * 3 / 4;
+        CHECK_EQ(boxes_add(world, &def), 1);
+        boxes_step(world, 1);
+        touch = boxes_events(world, CAROM_EVENT_BEGIN, 1, 0);
+        CHECK_EQ(touch, gap * 3 < 5 * 4);
+    }
+}
+
 const struct test tests_step[] = {
     {"step/climbed", climbed},
     {"step/in_a_line", in_a_line},
@@ -391,6 +414,7 @@ const struct test tests_step[] = {
     {"step/thrown_out", thrown_out},
     {"step/full_at_the_end", full_at_the_end},
     {"step/no_side", no_side},
+    {"step/end_to_end", end_to_end},
 #ifdef TEST_LONG
     {"step/many_faces", many_faces},
 #endif

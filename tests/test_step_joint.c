@@ -227,6 +227,40 @@ static void test_goes_along(void)
     CHECK_EQ(step.next->bodies[B].momentum.c[2], 0);
 }
 
+/*
+ * The factors of two joints' rows fill their room to the last entry: each joint holds six rows, and each row has an entry for every
+ * row up to itself. What comes next in the memory stays, and the chain moves as with room to spare.
+ */
+static void test_room(void)
+{
+    const int32_t guard = 0x5a5a5a5a;
+    uint64_t hash[2];
+
+    for (int tight = 0; tight < 2; tight++) {
+        struct joint_list *list;
+
+        setup(FALL);
+        for (int i = 0; i < 3; i++) {
+            CHECK_EQ(add(i * UNIT, 0, 0), i);
+        }
+        for (int i = 0; i < 2; i++) {
+            struct carom_joint_def j =
+                joint(CAROM_JOINT_FIXED, i, i + 1, i * UNIT + UNIT / 2, 0, 0);
+
+            CHECK_EQ(carom_joint_add(world, &j), i);
+        }
+        list = &world->rest.joints;
+        if (tight) {
+            list->room_size = 12 * 13 / 2;
+        }
+        list->room[12 * 13 / 2] = guard;
+        steps(3);
+        CHECK_EQ(list->room[12 * 13 / 2], guard);
+        hash[tight] = carom_world_hash(world);
+    }
+    CHECK_EQ(hash[1], hash[0]);
+}
+
 const struct test tests_step_joint[] = {
     {"step_joint/stands", test_stands},
     {"step_joint/no_room", test_no_room},
@@ -235,5 +269,6 @@ const struct test tests_step_joint[] = {
     {"step_joint/led", test_led},
     {"step_joint/keeps_awake", test_keeps_awake},
     {"step_joint/goes_along", test_goes_along},
+    {"step_joint/room", test_room},
     {0},
 };

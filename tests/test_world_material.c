@@ -386,13 +386,14 @@ static void test_rolling(void)
         {2 * CAROM_ROLLING_Q16, CAROM_ROLLING_Q16},
         {CAROM_ROLLING_Q16, 3 * CAROM_ROLLING_Q16},
         {2 * CAROM_ROLLING_Q16, CAROM_ROLLING_Q16 / 2},
+        {CAROM_ROLLING_Q16 / 32, CAROM_ROLLING_Q16 / 32}, /* the least product that counts */
         {1 << 16, 1 << 16},
     };
 
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 8; i++) {
         double arm = rolling[i][0] / 65536.0 * (rolling[i][1] / 65536.0) * 64;
         double lost, wanted = 5 * (arm < 1 ? arm : 1) / 256;
-        int frames = i < 6 ? 8 : 4;
+        int frames = i < 7 ? 8 : 4;
         struct carom_material m;
         int64_t before;
 
