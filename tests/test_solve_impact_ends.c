@@ -3,7 +3,7 @@
  * Impacts at the ends of the solver's numbers: an approach that its unit does not show beside V, a slip that is rounding, a contact that
  * wedges exactly, an impulse of less than the last place.
  */
-#include "solve/impact.h"
+#include "solve/rows.h"
 #include "lib/real.h"
 #include "lib/test.h"
 
@@ -162,6 +162,67 @@ static void wedges(void)
 }
 
 /*
+ * An arm of (x, 0, -z) and I = 1/8 wedge at mu = (I + x^2) / (x z). Here mu is rounded, and less by some units: the impulse is up to 2^20
+ * times that of an impact without friction. It is taken if it is below 2^17 units, and else there is none.
+ */
+static void almost_wedges(void)
+{
+    struct test_random r = {7};
+    int taken = 0;
+
+    for (int n = 0; n < 400; n++) {
+        const double x = real(test_random_range(&r, 300, 900), 10);
+        const double z = real(test_random_range(&r, 300, 900), 10);
+        struct impact in = touch(1 << 20, CAROM_ONE_Q30 / 8, x, 0, -z);
+        struct impact_problem p = {.gauss = &w, .in = &in, .frame = {.n = in.normal}};
+        struct impact_answer x_slides;
+
+        in.velocity.c[0] = ONE;
+        in.velocity.c[2] = -ONE;
+        in.friction_q16 = (uint32_t)(real_round((1. / 8 + x * x) / (x * z) * 65536) - n % 16);
+        p.wanted_q70 = fix_wide_mul(ONE, CAROM_ONE_Q30);
+        impact_prepare(&p);
+        CHECK(impact_set_frame(&p.frame, in.velocity.c));
+        if (impact_slide(&p, in.friction_q16, &x_slides) == 0) {
+            taken++;
+            for (int k = 0; k < 3; k++) {
+                CHECK_LESS(carom_abs(x_slides.p_q40[k]), (int64_t)1 << 57);
+            }
+        }
+    }
+    CHECK_MORE(taken, 20);
+    CHECK_LESS(taken, 380);
+}
+
+/*
+ * Without a slip u is across N and the axis from which N is farthest, so it has no part along that axis; v is across both. They are
+ * unit vectors, whichever axis it is.
+ */
+static void no_slip(void)
+{
+    static const double lengths[3] = {0.1, 0.6, 0.79};
+    static const int64_t none[3] = {0, 0, 0};
+
+    for (int n = 0; n < 6; n++) {
+        struct impact_frame f;
+        int64_t normal[3];
+        int far = n % 3;
+
+        normal[far] = (int64_t)(lengths[0] * (double)ONE);
+        normal[(far + 1) % 3] = -(int64_t)(lengths[n < 3 ? 1 : 2] * (double)ONE);
+        normal[(far + 2) % 3] = (int64_t)(lengths[n < 3 ? 2 : 1] * (double)ONE);
+        fix_normalise(&f.n, normal);
+        CHECK(!impact_set_frame(&f, none));
+        CHECK_EQ(f.u.c[far], 0);
+        CHECK_NEAR(carom_dot(f.u.c, f.u.c) >> 30, CAROM_ONE_Q30, 4);
+        CHECK_NEAR(carom_dot(f.v.c, f.v.c) >> 30, CAROM_ONE_Q30, 4);
+        CHECK_NEAR(carom_dot(f.u.c, f.n.c) >> 30, 0, 4);
+        CHECK_NEAR(carom_dot(f.v.c, f.n.c) >> 30, 0, 4);
+        CHECK_NEAR(carom_dot(f.u.c, f.v.c) >> 30, 0, 4);
+    }
+}
+
+/*
  * I about z is 2^-29 of that about x and y, less than the elimination tells from 0: where the contact slides along its slip, where it
  * slides though V has no slip, and where sticking would gain energy, no frictionless impulse is found. Only where P sticks it is not
  * needed.
@@ -199,6 +260,8 @@ const struct test tests_solve_impact_ends[] = {
     {"solve_impact_ends/hidden_approach", hidden_approach},
     {"solve_impact_ends/rounding_of_normal", rounding_of_normal},
     {"solve_impact_ends/wedges", wedges},
+    {"solve_impact_ends/almost_wedges", almost_wedges},
+    {"solve_impact_ends/no_slip", no_slip},
     {"solve_impact_ends/thin", thin},
     {0},
 };
