@@ -594,6 +594,63 @@ static void test_chunks(void)
     }
 }
 
+static void note(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
+{
+    struct collector *to = (struct collector *)self;
+
+    to->count += n;
+    for (uint32_t k = 0; k < n; k++) {
+        uint32_t place = place_in_set(c[k].kind, c[k].i, c[k].j);
+
+        to->set->bits[place / 8] |= (uint8_t)(1 << place % 8);
+    }
+}
+
+/*
+ * Two pairs are gathered, the first one goes, the second one takes its number, and a pair comes: the pool, which has not room for three,
+ * then holds the candidates of both that are there, and no others.
+ */
+static void test_kept(void)
+{
+    static const struct pair two[2] = {{0, 1}, {0, 1}};
+    const struct interfere_pairs all = {bodies, two, 2};
+    const struct interfere_span span = {0, 0, INT64_MAX, UINT32_MAX, false};
+    struct test_random r = {8};
+    int several = 0;
+
+    shape_field(&shape_b, 12, FIELD, 400, 300, 7);
+    make(1);
+    for (int n = 0; n < POSES && several < 4; n++) {
+        struct pair_work meetings[2] = {{.kept = false}};
+        struct collector first, to = {{note}, &again, 0, 0};
+
+        start(&r, true);
+        CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &first), CAROM_OK);
+        if (first.count < 8 || 3 * first.count > CANDIDATES) {
+            continue;
+        }
+        several++;
+        work.meetings = meetings;
+        candidate_pool = (struct pool){3 * first.count - 1, 0, 0, 0};
+        CHECK_EQ(interfere_visit_pair(&work, &all, 0, &span, true, &to.base), CAROM_OK);
+        CHECK_EQ(interfere_visit_pair(&work, &all, 1, &span, true, &to.base), CAROM_OK);
+        meetings[0] = meetings[1];
+        meetings[1] = (struct pair_work){.kept = false};
+        CHECK_EQ(interfere_visit_pair(&work, &all, 1, &span, true, &to.base), CAROM_OK);
+        CHECK_EQ(candidate_pool.refused, 0);
+        CHECK_EQ(candidate_pool.used, 2 * first.count);
+        for (uint32_t number = 0; number < 2; number++) {
+            CHECK(meetings[number].kept);
+            memset(&again, 0, sizeof again);
+            to.count = 0;
+            interfere_visit_kept(&work, number, &to.base);
+            CHECK_EQ(to.count, first.count);
+            CHECK_EQ(memcmp(&found, &again, sizeof found), 0);
+        }
+    }
+    CHECK_MORE(several, 0);
+}
+
 /* The pool of faces holds all of them or gives its error; working pools do not matter. */
 static void test_faces_full(void)
 {
@@ -804,6 +861,7 @@ const struct test tests_interfere[] = {
     {"interfere/motion", test_motion},
     {"interfere/paths", test_paths},
     {"interfere/chunks", test_chunks},
+    {"interfere/kept", test_kept},
     {"interfere/faces_full", test_faces_full},
     {"interfere/order", test_order},
     {"interfere/far_area", test_far_area},
