@@ -412,13 +412,19 @@ static void test_at_start(void)
     CHECK(!start_at(skin, 0, &hit));
 }
 
-/*
- * A cube's edge over another's, along y but for an angle of 1/200, at `gap` units of q22; it comes down at `speed` and turns a little.
- * True if it hits; sets the gap at the start.
- */
-static bool ridges_at(int32_t gap, double speed, int32_t *found_q22)
+/* A cube's edge over another's, along y but for a small angle. */
+struct ridges {
+    int32_t gap_q22;
+    double half_yaw; /* half of the angle */
+    double comes,
+        along; /* it comes down by so much; its middle is so far along the other one's, and comes back to twice less */
+};
+
+/* Nearly parallel edges in turning cubes: true if they hit. Sets the gap at the time that counts: the start, or the end if the edge slides. */
+static bool ridges_hit(const struct ridges *r, int32_t *found_q22)
 {
-    const double eighth = 992008094, other = 410903207, half_yaw = 0.0025;
+    const double eighth = 992008094, other = 410903207;
+    const int32_t t_q30 = r->along > 0 ? CAROM_ONE_Q30 : 0;
     struct boyse_touch touch;
     struct boyse_hit hit;
     uint32_t roots = 0, facing = 0;
@@ -427,17 +433,19 @@ static bool ridges_at(int32_t gap, double speed, int32_t *found_q22)
     above(0, 0, 2 * real_sqrt(0.5), true);
     shape_box(&duo.shape[0], 12, 4096, 4096, 4096);
     shape_body(&duo.shape[0], true, &duo.body[0], &duo.state[0]);
+    duo.state[0].position.c[1] += real_round(r->along * real_power2(32));
     duo.state[0].position.c[2] =
-        real_round(2 * real_sqrt(0.5) * real_power2(32)) + carom_shl(gap, 10);
-    duo.state[0].rotation = (carom_quat_q30){{(int32_t)eighth, -(int32_t)(half_yaw * other),
-                                              (int32_t)other, (int32_t)(half_yaw * eighth)}};
+        real_round(2 * real_sqrt(0.5) * real_power2(32)) + carom_shl(r->gap_q22, 10);
+    duo.state[0].rotation = (carom_quat_q30){{(int32_t)eighth, -(int32_t)(r->half_yaw * other),
+                                              (int32_t)other, (int32_t)(r->half_yaw * eighth)}};
     body_normalise(&duo.state[0].rotation);
-    duo_set_paths((double[3]){0, 0, -speed}, (double[3]){0, 0, 0.0001}, NULL);
+    duo_set_paths((double[3]){0, r->along > 0 ? 2 * (0.5 - r->along) : 0, -r->comes},
+                  (double[3]){0, 0, 0.0001}, NULL);
     for (uint32_t n = 0; n < 18 * 18; n++) {
         struct candidate c = {0, CANDIDATE_EDGE_EDGE, n / 18, n % 18};
 
         if (shape_owns_edge(&duo.shape[0], c.i) && shape_owns_edge(&duo.shape[1], c.j)) {
-            boyse_touch(&duo.pair, &c, 0, &touch);
+            boyse_touch(&duo.pair, &c, t_q30, &touch);
             if (touch.valid && touch.normal.c[2] > CAROM_ONE_Q30 / 10 * 9 &&
                 touch.gap_q22 < duo.pair.skin_q22) {
                 facing++;
@@ -455,19 +463,38 @@ static void test_deep_ridges(void)
 {
     int32_t gap_q22, skin;
 
-    CHECK(ridges_at(64, 0.001, &gap_q22));
+    CHECK(ridges_hit(&(struct ridges){64, 0.0025, 0.001, 0}, &gap_q22));
     CHECK_NEAR(gap_q22, 64, 8);
     skin = duo.pair.skin_q22;
     for (int32_t deep = -16; deep < 48; deep += 4) {
-        bool hits = ridges_at(-skin / 2 - deep, 0.001, &gap_q22);
+        bool hits = ridges_hit(&(struct ridges){-skin / 2 - deep, 0.0025, 0.001, 0}, &gap_q22);
 
         CHECK_NEAR(gap_q22, -skin / 2 - deep, 8);
         CHECK(gap_q22 > -skin / 2 || !hits);
     }
 }
 
+/*
+ * An edge slides over the end of another one, half way on its path, deep in the other cube: it comes to face the other edge there, and
+ * does not hit it. Where they cross is the middle of the edge that slides. Turned either way, since the sign of their product differs.
+ */
+static void test_ridges_that_slide(void)
+{
+    int32_t gap_q22;
+
+    CHECK(ridges_hit(&(struct ridges){64, 0.0025, 0.001, 0}, &gap_q22));
+    for (int n = 0; n < 16; n++) {
+        const struct ridges r = {-duo.pair.skin_q22 - 200, n % 2 ? 0.0025 : -0.0025, 0,
+                                 0.503 + 0.001 * n};
+
+        CHECK(!ridges_hit(&r, &gap_q22));
+        CHECK_LESS(gap_q22, -duo.pair.skin_q22 / 2);
+    }
+}
+
 const struct test tests_boyse[] = {
     {"boyse/deep_ridges", test_deep_ridges},
+    {"boyse/ridges_that_slide", test_ridges_that_slide},
     {"boyse/translating_vertex", test_translating_vertex},
     {"boyse/translating_face", test_translating_face},
     {"boyse/translating_edge", test_translating_edge},

@@ -495,10 +495,44 @@ static void test_bounds(void)
     }
 }
 
-const struct test tests_boyse_first[] = {
-    {"boyse_first/vertex_face", test_vertex_face}, {"boyse_first/face_vertex", test_face_vertex},
-    {"boyse_first/edge_edge", test_edge_edge},     {"boyse_first/polynomial", test_polynomial},
-    {"boyse_first/quotient", test_quotient},       {"boyse_first/curve_at", test_curve_at},
+/*
+ * A corner of a small cube that turns by a hundredth about an axis square to it, while the cube goes the same way by a few units of q22:
+ * no point of the cube goes farther, so only rounding is between its way and the bound.
+ */
+static void test_tight_bounds(void)
+{
+    static const double corner[3] = {1. / 32, 1. / 32, 1. / 32}, none[3] = {0, 0, 0};
+    struct test_random r = {18};
 
-    {"boyse_first/bounds", test_bounds},           {0},
+    make(3);
+    shape_box(&duo.shape[0], 12, 256, 256, 256);
+    duo_begin(false);
+    for (int n = 0; n < 400; n++) {
+        const double goes = real(test_random_range(&r, 1 << 9, 1 << 13), 32);
+        const double turns = real(test_random_range(&r, 1 << 22, 3 << 21), 30);
+        double axis[3] = {turns, -turns, 0}, way[3], length;
+
+        memset(duo.state[0].position.c, 0, sizeof duo.state[0].position.c);
+        memset(duo.state[1].position.c, 0, sizeof duo.state[1].position.c);
+        real_cross(way, axis, corner);
+        length = real_length(way);
+        for (int k = 0; k < 3; k++) {
+            way[k] *= goes / length;
+        }
+        duo_set_paths(way, axis, NULL);
+        check_bounds(&duo.pair.view[0], 0, 7, none, 1);
+    }
+}
+
+const struct test tests_boyse_first[] = {
+    {"boyse_first/tight_bounds", test_tight_bounds},
+    {"boyse_first/vertex_face", test_vertex_face},
+    {"boyse_first/face_vertex", test_face_vertex},
+    {"boyse_first/edge_edge", test_edge_edge},
+    {"boyse_first/polynomial", test_polynomial},
+    {"boyse_first/quotient", test_quotient},
+    {"boyse_first/curve_at", test_curve_at},
+
+    {"boyse_first/bounds", test_bounds},
+    {0},
 };
