@@ -382,6 +382,47 @@ static void many_faces(void)
 }
 #endif
 
+/*
+ * Balls of 48 faces turn by 1/32 of a radian each, or by some times that. A part may hold a sixteenth in all, so one part is enough for
+ * both; more turns have as many parts as they need, or one more.
+ */
+static void turns_in_parts(void)
+{
+    enum { SIDES_FEW = 8 };
+    static int16_t vertices[CAROM_SPHERE_VERTICES(SIDES_FEW)][3];
+    static uint16_t faces[CAROM_SPHERE_FACES(SIDES_FEW)][3];
+    static _Alignas(8) uint8_t
+        block[CAROM_MESH_BYTES(CAROM_SPHERE_VERTICES(SIDES_FEW), CAROM_SPHERE_FACES(SIDES_FEW))];
+    const struct carom_shape_room room = {vertices, faces, CAROM_SPHERE_VERTICES(SIDES_FEW),
+                                          CAROM_SPHERE_FACES(SIDES_FEW), 10};
+    struct carom_body_def def = boxes_def(CUBE, 0, 0, 0);
+    struct carom_mesh_raw raw;
+    struct carom_mesh ball;
+
+    begin();
+    CHECK_EQ(carom_shape_sphere(&raw, &room, 1000, SIDES_FEW), CAROM_OK);
+    CHECK_EQ(carom_mesh_build(&ball, &raw, block, sizeof block), CAROM_OK);
+    def.mesh = &ball;
+    CHECK_EQ(boxes_add(world, &def), 0);
+    def.position.c[0] = BOXES_Q32(2010);
+    CHECK_EQ(boxes_add(world, &def), 1);
+    start();
+    for (int turns = 0; turns < 64; turns++) {
+        const int each[2] = {turns % 8, turns / 8};
+
+        for (int i = 0; i < 2; i++) { /* u is half of the turn */
+            world->bodies[i].path.turns = each[i] > 0;
+            world->bodies[i].path.u2_q30 = each[i] * each[i] << 18;
+        }
+        if (each[0] <= 1 && each[1] <= 1) {
+            CHECK_EQ(step_parts(&step, pair_of(1, 0)), 1);
+        } else {
+            CHECK_AT_LEAST(2 * step_parts(&step, pair_of(1, 0)), each[0] + each[1]);
+            CHECK_AT_MOST(2 * step_parts(&step, pair_of(1, 0)), each[0] + each[1] + 2);
+        }
+    }
+}
+
 /* Two rods lie end to end, so their centres are as far apart as both radii and a gap: they touch within five skins. */
 static void end_to_end(void)
 {
@@ -414,6 +455,7 @@ const struct test tests_step[] = {
     {"step/thrown_out", thrown_out},
     {"step/full_at_the_end", full_at_the_end},
     {"step/no_side", no_side},
+    {"step/turns_in_parts", turns_in_parts},
     {"step/end_to_end", end_to_end},
 #ifdef TEST_LONG
     {"step/many_faces", many_faces},
