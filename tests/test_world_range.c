@@ -7,6 +7,7 @@
 
 #include "lib/shapes.h"
 #include "lib/test.h"
+#include "world/world.h"
 
 #ifdef TEST_LONG
 #define STRIDE 1
@@ -199,11 +200,37 @@ static void test_far_reach(void)
     }
 }
 
+/*
+ * The mean square of the speeds by which the points of a body turn is J^-1 (L / m) . L / m, which is below 2^20: with J^-1 = (1, 1, 2) it
+ * is the sum of x^2, y^2 and 2 z^2. The first three numbers give 2^100 - 1 units of 2^-80, the largest that is in range.
+ */
+static void test_mean_square(void)
+{
+    static const int64_t parts[3] = {795550400750197, 30411510653202, 562949953421359};
+    struct body b;
+    struct body_state s;
+
+    shape_box(&box, 12, 4096, 4096, 4096);
+    shape_body(&box, true, &b, &s);
+    box.mesh.inverse = (struct carom_sym3){{1 << 29, 1 << 29, 1 << 30, 0, 0, 0}, 29};
+    memset(&box.mesh.inverse_rest, 0, sizeof box.mesh.inverse_rest);
+    body_set_mass(&b, fix_scale(1, 0));
+    memcpy(s.angular.c, parts, sizeof parts);
+    CHECK(world_in_range(&b, &s));
+    s.angular.c[1]++;
+    CHECK(!world_in_range(&b, &s));
+    s.angular = (carom_v3_q40){{ONE << 10, 0, 0}};
+    CHECK(!world_in_range(&b, &s));
+    s.angular.c[0]--;
+    CHECK(world_in_range(&b, &s));
+}
+
 const struct test tests_world_range[] = {
     {"world_range/far_reach", test_far_reach},
     {"world_range/thin_spin", test_thin_spin},
     {"world_range/merged_contacts", test_merged_contacts},
     {"world_range/slice_ends", test_slice_ends},
     {"world_range/smallest", test_smallest},
+    {"world_range/mean_square", test_mean_square},
     {0},
 };
