@@ -226,6 +226,32 @@ static void asleep(void)
     }
 }
 
+/*
+ * The lower cube hits the plate again and again at one time: the pile goes along with the plate for so many repeats, and at the next
+ * one the plate stops.
+ */
+static void again_and_again(void)
+{
+    for (int stops = 0; stops < 2; stops++) {
+        struct pair_work *m;
+        carom_v3_q40 v;
+
+        pile_on(0, 0.25, 0, 0);
+        for (uint32_t i = GROUND; i <= B; i++) {
+            CHECK_EQ(step_set_path(&step, i), CAROM_OK);
+        }
+        m = &world->meetings[pair_of(A, GROUND)];
+        m->kind = CANDIDATE_VERTEX_FACE;
+        m->hit_q30 = m->answered_q30 = CAROM_ONE_Q30 / 2;
+        m->root_q30 = CAROM_ONE_Q30 / 2 + 1000;
+        m->repeats = stops ? STEP_HARD_AFTER : STEP_HARD_AFTER - 1;
+        CHECK_EQ(step_answer(&step, pair_of(A, GROUND)), CAROM_OK);
+        CHECK_EQ(world->bodies[GROUND].def.extra->blocked, stops);
+        body_velocity(&world->bodies[A], &step.next->bodies[A], &v);
+        CHECK_NEAR(v.c[0], stops ? 0 : BOXES_Q40(256), 1 << 12);
+    }
+}
+
 /* The list of events holds so many, and forgets others. */
 static void events(void)
 {
@@ -451,6 +477,7 @@ const struct test tests_step[] = {
     {"step/in_a_line", in_a_line},
     {"step/carried", carried},
     {"step/asleep", asleep},
+    {"step/again_and_again", again_and_again},
     {"step/events", events},
     {"step/thrown_out", thrown_out},
     {"step/full_at_the_end", full_at_the_end},
