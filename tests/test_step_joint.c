@@ -228,6 +228,37 @@ static void test_goes_along(void)
 }
 
 /*
+ * At the end of a frame a limit stops what moves on to it if it is closer than an eighth of a skin: not at that distance, and at less by
+ * the last place of a limit.
+ */
+static void test_near_limits(void)
+{
+    for (int nearer = 0; nearer < 4; nearer++) {
+        const bool low = nearer & 1, high = nearer & 2;
+        struct carom_joint_def j;
+        const struct joint_work *work;
+        int64_t close_q32;
+
+        setup(0);
+        CHECK_EQ(add(0, 0, 0), 0);
+        close_q32 = (int64_t)world->bodies[0].def.skin_q22 * 1024 / 8;
+        j = joint(CAROM_JOINT_SLIDER, 0, CAROM_WORLD, 0, 0, 0);
+        j.drive.limited = true;
+        j.drive.lower_q32 = -close_q32 + low;
+        j.drive.upper_q32 = close_q32 - high;
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+        step_begin(&step, world);
+        CHECK_EQ(step_set_path(&step, 0), CAROM_OK);
+        world->rest.joints.joints[0].chosen = true;
+        step.now_q30 = CAROM_ONE_Q30;
+        (void)world->joint_steps->measure(&step, JOINT_PROJECT);
+        work = &world->rest.joints.joints[0].work;
+        CHECK_EQ(work->law.lower, low);
+        CHECK_EQ(work->law.upper, high);
+    }
+}
+
+/*
  * The factors of two joints' rows fill their room to the last entry: each joint holds six rows, and each row has an entry for every
  * row up to itself. What comes next in the memory stays, and the chain moves as with room to spare.
  */
@@ -270,5 +301,6 @@ const struct test tests_step_joint[] = {
     {"step_joint/keeps_awake", test_keeps_awake},
     {"step_joint/goes_along", test_goes_along},
     {"step_joint/room", test_room},
+    {"step_joint/near_limits", test_near_limits},
     {0},
 };
