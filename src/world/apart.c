@@ -148,8 +148,8 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
 }
 
 /* Move a state along the shortest way out. */
-static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
-                    struct body_state *state)
+FIX_OWN_FRAME static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
+                                  struct body_state *state)
 {
     const int64_t most_q32 = ((int64_t)WORLD_WAY_MAX << 32) + ((int64_t)b->def.radius_q22 << 11);
     int64_t best_q32 = most_q32;

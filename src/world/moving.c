@@ -132,28 +132,35 @@ static void visit_landing(struct candidate_visitor *self, const struct candidate
     }
 }
 
+/* Pair a body with the surface for its way down from above it, if the surface can have gone into it. */
+FIX_OWN_FRAME static int pair_raised(struct lift *l, uint32_t i)
+{
+    struct carom_world *w = l->w;
+    struct body *b = &w->bodies[i];
+    const int64_t height_q32 = clear_q32(l, b);
+    struct body_state raised;
+
+    if (!movable(l, i) || !solid(l, i, l->surface) ||
+        !broad_near(&w->bodies[l->surface], &l->states[l->surface], b, &l->states[i],
+                    (int32_t)(height_q32 >> 10))) {
+        return CAROM_OK;
+    }
+    raised = l->states[i];
+    shift(l, &raised, height_q32);
+    set_path(l, b, &raised, -height_q32);
+    return add_pair(w, i, l->surface);
+}
+
 /* Find how far each island must be lifted by the surface itself. */
 static int find_lifts(struct lift *l)
 {
     struct carom_world *w = l->w;
-    const struct body *surface = &w->bodies[l->surface];
     int result = CAROM_OK;
 
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     set_path(l, &w->bodies[l->surface], &l->states[l->surface], 0);
     for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-        struct body *b = &w->bodies[i];
-        int64_t height_q32 = clear_q32(l, b);
-
-        if (movable(l, i) && solid(l, i, l->surface) &&
-            broad_near(surface, &l->states[l->surface], b, &l->states[i],
-                       (int32_t)(height_q32 >> 10))) {
-            struct body_state raised = l->states[i];
-
-            shift(l, &raised, height_q32);
-            set_path(l, b, &raised, -height_q32);
-            result = add_pair(w, i, l->surface);
-        }
+        result = pair_raised(l, i);
     }
     return result == CAROM_OK ? visit(l, visit_landing) : result;
 }
