@@ -30,6 +30,12 @@ enum replay_token {
 };
 #define REPLAY_RUN_MAX 128
 
+/* What acts on a body: a force or an impulse, and where. */
+struct replay_act {
+    carom_v3_q40 vector;
+    carom_v3_q32 point;
+};
+
 /* A call with its arguments. Pointers in it are to data that is written behind it. */
 struct replay_call {
     uint8_t op;     /* enum carom_replay_call */
@@ -46,10 +52,7 @@ struct replay_call {
         struct carom_body_state state;
         struct carom_pose pose;
         struct carom_filter filter;
-        struct {
-            carom_v3_q40 vector;
-            carom_v3_q32 point;
-        } act;
+        struct replay_act act;
         struct carom_material material;
         int64_t numbers[2];
         struct carom_joint_def joint;
@@ -78,7 +81,7 @@ void replay_code(struct replay_coder *c, struct replay_call *call);
 bool replay_is_of_body(uint8_t op);
 /* True if data follow a call; such a call is not remembered. */
 bool replay_has_data(uint8_t op);
-/* Make the call. */
+/* Make a call that is no step. */
 int replay_do(struct carom_world *world, const struct replay_call *call);
 /* The part of a result that is the same everywhere. A budget depends on time. */
 int replay_result(uint8_t op, int result);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Make a recorded call on a world. The recorder and the player use this. */
+/* Make a recorded call on a world, for the player; its name and what counts of its result, for the recorder, too. */
 #include "call.h"
 
 static int do_act(struct carom_world *w, const struct replay_call *c)
@@ -19,7 +19,7 @@ static int do_act(struct carom_world *w, const struct replay_call *c)
         return carom_body_push(w, c->body, vector, &c->u.act.point);
     case CAROM_CALL_body_push_centre:
         return carom_body_push_centre(w, c->body, vector);
-    default: /* a player makes worlds itself, and no other call is left */
+    default: /* a player makes worlds and steps itself, and no other call is left */
         CAROM_ASSERT(c->op == CAROM_CALL_body_twist);
         return carom_body_twist(w, c->body, vector);
     }
@@ -63,8 +63,6 @@ static int do_data(struct carom_world *w, const struct replay_call *c)
 int replay_do(struct carom_world *w, const struct replay_call *c)
 {
     switch (c->op) {
-    case CAROM_CALL_world_step:
-        return carom_world_step(w);
     case CAROM_CALL_body_add:
         return carom_body_add(w, &c->u.def);
     case CAROM_CALL_body_remove:

@@ -78,7 +78,7 @@ static int make_world(struct carom_replay *p, struct replay_call *call)
                                                                              : CAROM_OK;
 }
 
-/* Compare the state after a step with the recorded one. */
+/* Compare the state after a step with the recorded one. Returns what carom_replay_frame returns. */
 static int check(struct carom_replay *p)
 {
     struct replay_coder c = play_rest(p);
@@ -138,7 +138,10 @@ static int compare_result(struct carom_replay *p, int result)
     return CAROM_OK;
 }
 
-/* Make a call and compare its result. Returns an error of the file, the outcome of a step, or CAROM_OK. */
+/* Beside enum carom_replay_result: the next call is a step, which carom_replay_frame makes. */
+#define STEP_IS_NEXT (CAROM_REPLAY_CUT + 1)
+
+/* Make a call and compare its result. Returns an error of the file, STEP_IS_NEXT, or CAROM_OK. */
 static int perform(struct carom_replay *p, struct replay_call *call)
 {
     struct carom_mesh **mesh = NULL;
@@ -155,16 +158,18 @@ static int perform(struct carom_replay *p, struct replay_call *call)
     if (!p->world || (call->op == CAROM_CALL_body_add && !call->u.def.mesh)) {
         return CAROM_ERR_FORMAT;
     }
-    result = replay_result(call->op, replay_do(p->world, call));
+    if (call->op == CAROM_CALL_world_step) {
+        return STEP_IS_NEXT;
+    }
+    result = replay_do(p->world, call);
     if (mesh && (*mesh)->surface) {
         *mesh = NULL; /* such a mesh belongs to one body */
     }
-    result = compare_result(p, result);
-    return result == CAROM_OK && call->op == CAROM_CALL_world_step ? check(p) : result;
+    return compare_result(p, result);
 }
 
 /* Play a call of a slot. */
-static int perform_again(struct carom_replay *p, uint8_t slot)
+FIX_OWN_FRAME static int perform_again(struct carom_replay *p, uint8_t slot)
 {
     const struct carom_replay_slot *s = &p->memory.slots[slot];
     struct replay_coder c = {.in = s->bytes, .at = 1, .size = s->size};
@@ -180,7 +185,7 @@ static int perform_again(struct carom_replay *p, uint8_t slot)
 }
 
 /* Play a call that is written in full. */
-static int perform_new(struct carom_replay *p, uint8_t op)
+FIX_OWN_FRAME static int perform_new(struct carom_replay *p, uint8_t op)
 {
     const uint8_t *bytes = p->file + p->at - 1;
     struct replay_coder c = play_rest(p);
@@ -203,7 +208,7 @@ static int perform_new(struct carom_replay *p, uint8_t op)
 }
 
 /* Check that the end fits the file. */
-static int end(struct carom_replay *p)
+FIX_OWN_FRAME static int end(struct carom_replay *p)
 {
     const uint32_t sum = replay_sum(FNV32_START, p->file, p->bytes - 4); /* the header is longer */
     struct replay_coder c = play_rest(p);
@@ -254,14 +259,11 @@ static int go_on(struct carom_replay *p)
     return token < CAROM_CALL_COUNT ? perform_new(p, token) : CAROM_ERR_FORMAT;
 }
 
-int carom_replay_frame(struct carom_replay *p)
+/* Play on until a step is next. Returns STEP_IS_NEXT, or what carom_replay_frame returns. */
+FIX_OWN_FRAME static int play_calls(struct carom_replay *p)
 {
     int result = CAROM_OK;
 
-    if (!p) {
-        return CAROM_ERR_NULL;
-    }
-    p->difference = CAROM_REPLAY_SAME;
     while (result == CAROM_OK) {
         if (next_is(p, REPLAY_TOKEN_END)) {
             p->at++;
@@ -270,6 +272,26 @@ int carom_replay_frame(struct carom_replay *p)
         result = go_on(p);
     }
     return result;
+}
+
+/* Compare a step with the recorded one: its result, and the state after it. */
+FIX_OWN_FRAME static int check_step(struct carom_replay *p, int result)
+{
+    result = compare_result(p, replay_result(CAROM_CALL_world_step, result));
+    return result == CAROM_OK ? check(p) : result;
+}
+
+/* The step is made here, above nothing else on the stack: it goes deepest. */
+int carom_replay_frame(struct carom_replay *p)
+{
+    int result;
+
+    if (!p) {
+        return CAROM_ERR_NULL;
+    }
+    p->difference = CAROM_REPLAY_SAME;
+    result = play_calls(p);
+    return result == STEP_IS_NEXT ? check_step(p, carom_world_step(p->world)) : result;
 }
 
 int carom_replay_begin(struct carom_replay *p, const void *file, size_t bytes, void *mem,

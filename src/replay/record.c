@@ -141,21 +141,6 @@ void record_result(struct carom_record *r, uint8_t op, int result)
     }
 }
 
-int record_do(struct carom_record *r, struct carom_world *world, const struct replay_call *call)
-{
-    const bool open = record_is_open(r, world);
-    int result;
-
-    if (open) {
-        record_call(r, call);
-    }
-    result = replay_do(world, call);
-    if (open) {
-        record_result(r, call->op, result);
-    }
-    return result;
-}
-
 /* ----------------------------------------------------------------------- data */
 
 void record_vertices(struct carom_record *r, const int16_t (*vertices)[3], uint32_t count)

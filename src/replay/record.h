@@ -12,8 +12,6 @@ void record_call(struct carom_record *r, const struct replay_call *call);
 void record_result(struct carom_record *r, uint8_t op, int result);
 /* Write a call that nobody made, about bodies that only the recording has. */
 void record_made(struct carom_record *r, const struct replay_call *call, int result);
-/* Write a call, make it, write its result. */
-int record_do(struct carom_record *r, struct carom_world *world, const struct replay_call *call);
 
 /* Write a byte that begins something other than a call. */
 void record_token(struct carom_record *r, uint8_t token);

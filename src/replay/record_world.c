@@ -42,8 +42,29 @@ static struct carom_body_def def_of(const struct body *b)
     return def;
 }
 
+/* Write a call with at most two numbers. */
+FIX_OWN_FRAME static void note_numbers(struct carom_record *r, enum carom_replay_call op, int body,
+                                       int64_t first, int64_t second)
+{
+    struct replay_call call = {.op = (uint8_t)op, .body = body};
+
+    call.u.numbers[0] = first;
+    call.u.numbers[1] = second;
+    record_made(r, &call, CAROM_OK);
+}
+
+FIX_OWN_FRAME static void note_move(struct carom_record *r, int body, const struct carom_mesh *mesh)
+{
+    const struct replay_call call = {
+        .op = CAROM_CALL_surface_move, .body = body, .count = mesh->raw.vertex_count};
+
+    record_call(r, &call);
+    record_vertices(r, (const int16_t(*)[3])mesh->surface->now, call.count);
+    record_result(r, call.op, CAROM_OK);
+}
+
 /* Write a surface as it was when the last step ended, and move it from there. */
-static void note_body(struct carom_record *r, int body)
+FIX_OWN_FRAME static void note_body(struct carom_record *r, int body)
 {
     const struct body *b = &r->world->bodies[body];
     struct replay_call call = {.op = CAROM_CALL_body_add, .body = body};
@@ -57,12 +78,7 @@ static void note_body(struct carom_record *r, int body)
     call.mesh = record_mesh(r, &mesh);
     record_made(r, &call, body);
     if (mesh.surface && mesh.surface->most_q22 != 0) {
-        const struct replay_call move = {
-            .op = CAROM_CALL_surface_move, .body = body, .count = mesh.raw.vertex_count};
-
-        record_call(r, &move);
-        record_vertices(r, (const int16_t(*)[3])mesh.surface->now, move.count);
-        record_result(r, move.op, CAROM_OK);
+        note_move(r, body, &mesh);
     }
 }
 
@@ -70,7 +86,8 @@ static void note_body(struct carom_record *r, int body)
  * Write materials by face. The world does not know how many there are: write those that faces use, and one more with the
  * largest e and mu of all.
  */
-static void note_faces(struct carom_record *r, int body, const struct body_extra *extra)
+FIX_OWN_FRAME static void note_faces(struct carom_record *r, int body,
+                                     const struct body_extra *extra)
 {
     struct replay_call call = {.op = CAROM_CALL_body_set_face_materials, .body = body};
     struct carom_material most = {.restitution_q30 = extra->most_restitution_q30,
@@ -94,11 +111,10 @@ static void note_faces(struct carom_record *r, int body, const struct body_extra
  * Write materials, and an extra for a body that has one. A world mixes materials by its rules from the first change of a
  * material on, so write a change and take it back.
  */
-static void note_extras(struct carom_record *r, int body)
+FIX_OWN_FRAME static void note_extras(struct carom_record *r, int body)
 {
     const struct body *b = &r->world->bodies[body];
     struct replay_call call = {.op = CAROM_CALL_body_set_material, .body = body};
-    struct replay_call damping = {.op = CAROM_CALL_body_set_damping, .body = body};
 
     if (r->world->rest.list.materials) {
         struct carom_material *m = &call.u.material;
@@ -116,40 +132,35 @@ static void note_extras(struct carom_record *r, int body)
         note_faces(r, body, b->def.extra);
     }
     for (int k = 1; b->def.extra && b->def.moving && k >= 0; k--) {
-        damping.u.numbers[0] = k;
-        record_made(r, &damping, CAROM_OK);
+        note_numbers(r, CAROM_CALL_body_set_damping, body, k, 0);
     }
 }
 
-static void note_joint(struct carom_record *r, const struct joint *j)
+/* To write a joint leaves it as it is. */
+FIX_OWN_FRAME static void note_joint(struct carom_record *r, struct joint *j)
 {
     uint8_t out[REPLAY_CALL_BYTES];
     struct replay_coder c = {.out = out, .size = sizeof out};
-    struct joint copy = *j;
 
     record_token(r, REPLAY_TOKEN_JOINT);
-    replay_joint(&c, &copy);
+    replay_joint(&c, j);
     record_bytes(r, out, (uint32_t)c.at);
 }
 
-static void note_all(struct carom_record *r)
+FIX_OWN_FRAME static void note_all(struct carom_record *r)
 {
     const struct carom_world *w = r->world;
-    struct replay_call call = {.op = CAROM_CALL_world_set_combine};
 
-    call.u.numbers[0] = w->rest.list.restitution_rule;
-    call.u.numbers[1] = w->rest.list.friction_rule;
-    record_made(r, &call, CAROM_OK);
+    note_numbers(r, CAROM_CALL_world_set_combine, 0, w->rest.list.restitution_rule,
+                 w->rest.list.friction_rule);
     for (uint32_t i = 0; i < w->body_count; i++) {
         note_body(r, (int)i);
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        const struct replay_call away = {.op = CAROM_CALL_body_remove, .body = (int32_t)i};
-
         if (w->bodies[i].def.mesh) {
             note_extras(r, (int)i);
         } else {
-            record_made(r, &away, CAROM_OK);
+            note_numbers(r, CAROM_CALL_body_remove, (int)i, 0, 0);
         }
     }
     for (uint32_t i = 0; i < w->rest.joints.count; i++) {
