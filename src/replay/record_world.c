@@ -53,17 +53,7 @@ FIX_OWN_FRAME static void note_numbers(struct carom_record *r, enum carom_replay
     record_made(r, &call, CAROM_OK);
 }
 
-FIX_OWN_FRAME static void note_move(struct carom_record *r, int body, const struct carom_mesh *mesh)
-{
-    const struct replay_call call = {
-        .op = CAROM_CALL_surface_move, .body = body, .count = mesh->raw.vertex_count};
-
-    record_call(r, &call);
-    record_vertices(r, (const int16_t(*)[3])mesh->surface->now, call.count);
-    record_result(r, call.op, CAROM_OK);
-}
-
-/* Write a surface as it was when the last step ended, and move it from there. */
+/* Write a body; a surface as it was when the last step ended. */
 FIX_OWN_FRAME static void note_body(struct carom_record *r, int body)
 {
     const struct body *b = &r->world->bodies[body];
@@ -77,8 +67,19 @@ FIX_OWN_FRAME static void note_body(struct carom_record *r, int body)
     }
     call.mesh = record_mesh(r, &mesh);
     record_made(r, &call, body);
-    if (mesh.surface && mesh.surface->most_q22 != 0) {
-        note_move(r, body, &mesh);
+}
+
+/* Move a surface from there to where it is. */
+FIX_OWN_FRAME static void note_move(struct carom_record *r, int body)
+{
+    const struct carom_mesh *mesh = r->world->bodies[body].def.mesh;
+    struct replay_call call = {.op = CAROM_CALL_surface_move, .body = body};
+
+    if (mesh && mesh->surface && mesh->surface->most_q22 != 0) {
+        call.count = mesh->raw.vertex_count;
+        record_call(r, &call);
+        record_vertices(r, (const int16_t(*)[3])mesh->surface->now, call.count);
+        record_result(r, call.op, CAROM_OK);
     }
 }
 
@@ -155,6 +156,7 @@ FIX_OWN_FRAME static void note_all(struct carom_record *r)
                  w->rest.list.friction_rule);
     for (uint32_t i = 0; i < w->body_count; i++) {
         note_body(r, (int)i);
+        note_move(r, (int)i);
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (w->bodies[i].def.mesh) {
