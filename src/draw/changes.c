@@ -158,7 +158,7 @@ static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t numb
 /* --------------------------------------------------------------------- lines */
 
 /* A hash of the paint's lines; 0 without lines. */
-static uint64_t hash_lines(const struct carom_paint *paint)
+FIX_OWN_FRAME static uint64_t hash_lines(const struct carom_paint *paint)
 {
     uint64_t hash = paint && paint->line_count ? FNV_START : 0;
 
@@ -247,7 +247,7 @@ static uint32_t body_count(const struct changes *c, const struct carom_drawn *dr
 }
 
 /* True if nothing has moved since the last picture, and no face interferes or did. */
-static bool stands_still(const struct changes *c, const struct carom_drawn *drawn)
+FIX_OWN_FRAME static bool stands_still(const struct changes *c, const struct carom_drawn *drawn)
 {
     uint32_t count = body_count(c, drawn);
 
@@ -275,9 +275,9 @@ static struct carom_rect touched_in(const struct changes *c, const struct carom_
 }
 
 /* Find the changed rectangles, and note what the picture shows. */
-static void find_changes(struct changes *c, const struct carom_camera *camera,
-                         const struct carom_picture *picture, enum carom_draw_style style,
-                         struct carom_drawn *drawn)
+FIX_OWN_FRAME static void find_changes(struct changes *c, const struct carom_camera *camera,
+                                       const struct carom_picture *picture,
+                                       enum carom_draw_style style, struct carom_drawn *drawn)
 {
     uint32_t count = body_count(c, drawn);
 
@@ -331,10 +331,10 @@ int carom_draw_changes(const struct carom_world *world, const struct carom_camer
     for (int i = 0; result == CAROM_OK && i < drawn->changed_count; i++) {
         const struct carom_rect *r = &drawn->changed[i];
         const int32_t *middle = c.view.middle;
+        const struct draw_rect part = {r->x0 - middle[0], r->y0 - middle[1], r->x1 - middle[0],
+                                       r->y1 - middle[1]};
 
-        result = draw_part(&c.source, &c.view, picture, style,
-                           (struct draw_rect){r->x0 - middle[0], r->y0 - middle[1],
-                                              r->x1 - middle[0], r->y1 - middle[1]});
+        result = draw_part(&c.source, &c.view, picture, style, &part);
         drawn->shows = result == CAROM_OK;
     }
     return result;

@@ -48,7 +48,7 @@ int draw_check(const struct carom_world *world, const struct carom_camera *camer
 
 int draw_part(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, enum carom_draw_style style,
-              struct draw_rect part)
+              const struct draw_rect *part)
 {
     if (style == CAROM_DRAW_FLAT) {
         return draw_flat(source, view, picture, part);
@@ -62,6 +62,7 @@ int carom_draw(const struct carom_world *world, const struct carom_camera *camer
 {
     struct draw_source source;
     struct draw_view view;
+    struct draw_rect all;
     int result = draw_check(world, camera, picture, style);
 
     if (result == CAROM_OK) {
@@ -72,5 +73,6 @@ int carom_draw(const struct carom_world *world, const struct carom_camera *camer
     }
     draw_paint_light(&view, picture->paint);
     draw_source_init(&source, world, picture->paint);
-    return draw_part(&source, &view, picture, style, draw_whole(&view, picture));
+    all = draw_whole(&view, picture);
+    return draw_part(&source, &view, picture, style, &all);
 }

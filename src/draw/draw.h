@@ -55,7 +55,7 @@
 
 /* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
 int draw_flat(const struct draw_source *source, struct draw_view *view,
-              const struct carom_picture *picture, struct draw_rect rect);
+              const struct carom_picture *picture, const struct draw_rect *rect);
 
 /* ---- smooth.c: shades from corner to corner */
 
@@ -123,7 +123,7 @@ static inline const struct carom_shadows *draw_shadows(const struct draw_source 
 /* ---- wire.c */
 
 void draw_wire(const struct draw_source *source, struct draw_view *view,
-               const struct carom_picture *picture, struct draw_rect part);
+               const struct carom_picture *picture, const struct draw_rect *part);
 /* Draw a line between two places in the guard band, within the view's part. */
 void draw_line(const struct draw_view *view, const struct carom_picture *picture,
                const struct draw_vertex *a, const struct draw_vertex *b, uint32_t colour);
@@ -202,6 +202,6 @@ int draw_check(const struct carom_world *world, const struct carom_camera *camer
 /* Draw a part of the picture, and nothing outside of it. */
 int draw_part(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, enum carom_draw_style style,
-              struct draw_rect part);
+              const struct draw_rect *part);
 
 #endif

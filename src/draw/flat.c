@@ -30,7 +30,7 @@ struct flat {
 
 /* ------------------------------------------------------------ into the list */
 
-static void list_clipped(struct flat *f, uint32_t number, uint32_t colour)
+FIX_OWN_FRAME static void list_clipped(struct flat *f, uint32_t number, uint32_t colour)
 {
     struct draw_vertex corner[DRAW_CLIP_MAX];
     uint32_t place[DRAW_CLIP_MAX];
@@ -112,8 +112,8 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bo
  * List what shows of a leaf. inside: the leaf is known to be inside the part. There must be room
  * for the most that a leaf may list.
  */
-static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
-                     const struct draw_cover *cover)
+FIX_OWN_FRAME static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
+                                   const struct draw_cover *cover)
 {
     const struct carom_paint *paint = f->source->paint;
     const struct draw_body *body = &f->body;
@@ -183,7 +183,7 @@ static bool has_room(const struct flat *f)
 }
 
 /* List the paint's lines. Returns false if there is not room for all. */
-static bool see_lines(struct flat *f)
+FIX_OWN_FRAME static bool see_lines(struct flat *f)
 {
     const struct carom_paint *paint = f->source->paint;
 
@@ -326,11 +326,11 @@ static bool try_part(struct flat *f, const struct carom_picture *picture, struct
  * there is room for: some 60 in front of each other in the smallest workspace.
  */
 int draw_flat(const struct draw_source *source, struct draw_view *view,
-              const struct carom_picture *picture, struct draw_rect rect)
+              const struct carom_picture *picture, const struct draw_rect *rect)
 {
     const struct carom_shadows *shadows = draw_shadows(source);
     struct flat f = {.source = source, .view = view};
-    int32_t x = rect.x0, y = rect.y0, columns = rect.x1 - rect.x0, rows = rect.y1 - rect.y0;
+    int32_t x = rect->x0, y = rect->y0, columns = rect->x1 - rect->x0, rows = rect->y1 - rect->y0;
 
     if (!make_flat(&f, picture)) {
         return CAROM_ERR_MEMORY;
@@ -339,14 +339,14 @@ int draw_flat(const struct draw_source *source, struct draw_view *view,
     if (shadows) {
         shadows->init(source, view);
     }
-    while (y < rect.y1) {
+    while (y < rect->y1) {
         struct draw_rect part = {x, y, x + columns, y + rows};
 
-        part.x1 = part.x1 < rect.x1 ? part.x1 : rect.x1;
-        part.y1 = part.y1 < rect.y1 ? part.y1 : rect.y1;
+        part.x1 = part.x1 < rect->x1 ? part.x1 : rect->x1;
+        part.y1 = part.y1 < rect->y1 ? part.y1 : rect->y1;
         if (try_part(&f, picture, part, rows == 1 && columns == 1)) {
-            x = part.x1 < rect.x1 ? part.x1 : rect.x0;
-            y = part.x1 < rect.x1 ? y : part.y1;
+            x = part.x1 < rect->x1 ? part.x1 : rect->x0;
+            y = part.x1 < rect->x1 ? y : part.y1;
         } else if (rows > 1) {
             rows = (rows + 1) / 2;
         } else {

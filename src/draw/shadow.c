@@ -21,6 +21,7 @@ struct receiver {
     const struct draw_body *body;
     const struct draw_shades *shades;
     struct draw_list *list;
+    carom_v3_q32 position;
     carom_m3_q30 turn; /* its axes to the world's */
     int32_t sun[3];    /* towards the light, view coordinates */
     void *scratch;     /* for an outline and its prisms */
@@ -159,23 +160,14 @@ static void grow(struct draw_vertex *corner, int n)
     }
 }
 
-/* List the part of a triangle inside a prism. Returns false if there is too little room. */
-static bool list_shadow(const struct receiver *r, struct lit *lit, const struct prism *prism)
+/* List the part of a triangle inside a prism, a polygon of n corners. */
+FIX_OWN_FRAME static void list_polygon(const struct receiver *r, struct lit *lit,
+                                       int32_t polygon[DRAW_CLIP_MAX][3], int n)
 {
     const uint32_t faces = r->list->face_count, vertices = r->list->vertex_count;
-    int32_t polygon[DRAW_CLIP_MAX][3];
     struct draw_vertex corner[DRAW_CLIP_MAX];
     uint32_t place[DRAW_CLIP_MAX], last = lit->plane[2];
-    int n;
 
-    memcpy(polygon, lit->corner, sizeof lit->corner);
-    n = prism_cut(prism, polygon, 3);
-    if (n < 3) {
-        return true;
-    }
-    if (!has_room(r->list)) {
-        return false;
-    }
     list_plane(r, lit);
     for (int i = 0; i < n; i++) {
         corner[i] = draw_clipped_vertex(r->body, polygon[i]);
@@ -191,6 +183,23 @@ static bool list_shadow(const struct receiver *r, struct lit *lit, const struct 
         r->list->vertex_count = vertices;
         lit->plane[2] = last;
     }
+}
+
+/* Cut a triangle to the inside of a prism, and list what is left. Returns false if there is too little room. */
+static bool list_shadow(const struct receiver *r, struct lit *lit, const struct prism *prism)
+{
+    int32_t polygon[DRAW_CLIP_MAX][3];
+    int n;
+
+    memcpy(polygon, lit->corner, sizeof lit->corner);
+    n = prism_cut(prism, polygon, 3);
+    if (n < 3) {
+        return true;
+    }
+    if (!has_room(r->list)) {
+        return false;
+    }
+    list_polygon(r, lit, polygon, n);
     return true;
 }
 
@@ -334,7 +343,7 @@ static bool may_be_shaded(const struct receiver *r, uint32_t number)
 }
 
 /* List a solid's shadows on the body. */
-static bool shade_by_caster(const struct receiver *r, const struct caster *c)
+FIX_OWN_FRAME static bool shade_by_caster(const struct receiver *r, const struct caster *c)
 {
     const struct carom_mesh *mesh = r->body->mesh;
 
@@ -360,21 +369,43 @@ static bool shade_by_caster(const struct receiver *r, const struct caster *c)
     return true;
 }
 
-/* shade_by_caster, unless the solid is too far aside or its outline does not fit. */
-static bool shade_by(const struct receiver *r, const struct carom_body_look *own,
-                     const struct carom_body_look *look)
+/* Make a solid's prisms. Returns false if its outline does not fit. */
+FIX_OWN_FRAME static bool make_prisms(const struct receiver *r, struct caster *c,
+                                      const struct carom_body_look *look)
 {
-    struct caster c = {.radius = radius_q16(look->mesh->radius_q22)};
     struct draw_body body;
 
+    draw_body_place(&body, r->view, look);
+    return prism_make_all(&c->set, &body, r->sun, r->scratch, r->bytes);
+}
+
+/* shade_by_caster, unless the solid is too far aside or its outline does not fit. */
+static bool shade_by(const struct receiver *r, const struct carom_body_look *look)
+{
+    struct caster c = {.radius = radius_q16(look->mesh->radius_q22)};
+
     for (int k = 0; k < 3; k++) {
-        c.from[k] = (int32_t)((look->position.c[k] - own->position.c[k]) >> 16);
+        c.from[k] = (int32_t)((look->position.c[k] - r->position.c[k]) >> 16);
     }
-    if (!may_shade(r->view, c.from, c.radius + radius_q16(own->mesh->radius_q22))) {
+    if (!may_shade(r->view, c.from, c.radius + radius_q16(r->body->mesh->radius_q22))) {
         return true;
     }
-    draw_body_place(&body, r->view, look);
-    return !prism_make_all(&c.set, &body, r->sun, r->scratch, r->bytes) || shade_by_caster(r, &c);
+    return !make_prisms(r, &c, look) || shade_by_caster(r, &c);
+}
+
+/* Set where the body is, and where the light comes from as its vertices are placed. */
+FIX_OWN_FRAME static void place_receiver(struct receiver *r, uint32_t number)
+{
+    struct carom_body_look own;
+    struct draw_body frame;
+
+    (void)draw_look(r->source, number, &own); /* it is there: its faces are in the list */
+    r->position = own.position;
+    fix_matrix(&r->turn, &own.rotation);
+    draw_body_of_points(&frame, r->view, r->body->shift);
+    for (int k = 0; k < 3; k++) {
+        r->sun[k] = (int32_t)(carom_dot(frame.to_view.c[k], r->view->sun.c) >> 30);
+    }
 }
 
 static bool list_shadows(const struct draw_source *source, const struct draw_view *view,
@@ -388,18 +419,12 @@ static bool list_shadows(const struct draw_source *source, const struct draw_vie
                          .list = list,
                          .scratch = scratch,
                          .bytes = bytes};
-    struct carom_body_look own, look;
-    struct draw_body frame;
+    struct carom_body_look look;
 
-    (void)draw_look(source, number, &own); /* it is there: its faces are in the list */
-    fix_matrix(&r.turn, &own.rotation);
-    draw_body_of_points(&frame, view, body->shift);
-    for (int k = 0; k < 3; k++) {
-        r.sun[k] = (int32_t)(carom_dot(frame.to_view.c[k], view->sun.c) >> 30);
-    }
+    place_receiver(&r, number);
     for (uint32_t i = 0; i < source->count; i++) {
         if (i != number && draw_look(source, i, &look) && look.mesh->raw.kind == CAROM_SOLID &&
-            !shade_by(&r, &own, &look)) {
+            !shade_by(&r, &look)) {
             return false;
         }
     }

@@ -161,16 +161,17 @@ static void draw_lines(const struct carom_picture *picture, const struct draw_vi
 }
 
 void draw_wire(const struct draw_source *source, struct draw_view *view,
-               const struct carom_picture *picture, struct draw_rect part)
+               const struct carom_picture *picture, const struct draw_rect *part)
 {
     struct draw_body body;
 
     /* a line may leave its place by a pixel: draw what is that near, too */
-    draw_view_rect(view, (struct draw_rect){part.x0 - 2, part.y0 - 2, part.x1 + 2, part.y1 + 2});
-    view->rect = part;
-    for (int32_t y = part.y0; y < part.y1; y++) {
-        draw_run(draw_pixels(view, picture, y), draw_pixel_shift(picture->format), part.x0, part.x1,
-                 draw_ground(view, picture, y));
+    draw_view_rect(view,
+                   (struct draw_rect){part->x0 - 2, part->y0 - 2, part->x1 + 2, part->y1 + 2});
+    view->rect = *part;
+    for (int32_t y = part->y0; y < part->y1; y++) {
+        draw_run(draw_pixels(view, picture, y), draw_pixel_shift(picture->format), part->x0,
+                 part->x1, draw_ground(view, picture, y));
     }
     for (uint32_t i = 0; i < source->count; i++) {
         if (see_body(&body, view, source, i)) {
