@@ -298,9 +298,9 @@ struct carom_replay {
     uint8_t note_bytes;        /**< length of the note */
     uint8_t difference;        /**< #carom_replay_difference: the first one of the frame */
     uint8_t part;              /**< #carom_replay_part that differs */
-    uint8_t call;              /**< #carom_replay_call: the last one played */
-    int64_t wanted;            /**< recorded value */
-    int64_t found;             /**< value that differs from it */
+    uint8_t call;   /**< #carom_replay_call: the last one played, or the first one that differs */
+    int64_t wanted; /**< recorded value */
+    int64_t found;  /**< value that differs from it */
 
     const uint8_t *file;                            /**< Carom's own: the recording */
     size_t bytes;                                   /**< Carom's own: its size */

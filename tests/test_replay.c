@@ -158,18 +158,9 @@ static uint64_t record_all(bool stages, uint64_t seed)
     return carom_world_hash(world);
 }
 
-/* Play the recording in so much memory; returns the result it ends with. */
 static int play_in(size_t bytes, size_t memory)
 {
-    int result = carom_replay_begin(&player, file, bytes, room, memory);
-
-    if (result < 0) {
-        return result;
-    }
-    do {
-        result = carom_replay_frame(&player);
-    } while (result == CAROM_REPLAY_FRAME);
-    return result;
+    return play_file(&player, bytes, room, memory);
 }
 
 static int play(size_t bytes)

@@ -147,7 +147,9 @@ static int perform(struct carom_replay *p, struct replay_call *call)
     struct carom_mesh **mesh = NULL;
     int result;
 
-    p->call = call->op;
+    if (p->difference == CAROM_REPLAY_SAME) { /* else it names the call that differs */
+        p->call = call->op;
+    }
     if (call->op == CAROM_CALL_world_init) {
         return make_world(p, call);
     }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* written - the file that a recorder of a test source writes. */
+/* written - the file that a recorder of a test source writes, and playing it. */
 #ifndef CAROM_TEST_WRITTEN_H
 #define CAROM_TEST_WRITTEN_H
 
 #include <string.h>
 
+#include "carom_replay.h"
 #include "test.h"
 
 static uint8_t file[8192];
@@ -19,6 +20,20 @@ static inline void write_file(void *user, const void *bytes, size_t count)
         memcpy(file + file_bytes, bytes, count);
         file_bytes += count;
     }
+}
+
+/* Play so many bytes of the file in so much memory; returns the result it ends with. */
+static inline int play_file(struct carom_replay *player, size_t bytes, void *room, size_t memory)
+{
+    int result = carom_replay_begin(player, file, bytes, room, memory);
+
+    while (result == CAROM_OK || result == CAROM_REPLAY_FRAME) {
+        result = carom_replay_frame(player);
+        if (result == CAROM_REPLAY_END) {
+            break;
+        }
+    }
+    return result;
 }
 
 #endif
