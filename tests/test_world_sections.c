@@ -93,6 +93,33 @@ static void test_forces(void)
     }
 }
 
+/* A section in which each filter is the usual one, and a filter of zeros, which a call takes for the usual one. */
+static void test_filters(void)
+{
+    static const struct carom_filter own = {2, 3, -1};
+    size_t at;
+
+    make(true);
+    CHECK_EQ(carom_body_set_filter(world, 1, &own), CAROM_OK);
+    size = (size_t)carom_snapshot_save(world, saved, sizeof saved);
+    at = section("FLT1");
+    CHECK_EQ(bytes_number(saved + at + 6, 6), 0xffff00030002u);
+    for (int body = 0; body < 3; body++) {
+        for (int k = 0; k < 3; k++) {
+            memcpy(changed, saved, size);
+            bytes_put(changed + at + 6, k == 2 ? 0xffff00030002u : 0xffff0001u, 6);
+            bytes_put(changed + at + 6 * (size_t)body, k == 0 ? 0xffff0001u : (uint64_t)(k - 1), 6);
+            bytes_mend(changed, size);
+            if (k == 2) { /* category 1, mask 0, group 0 */
+                CHECK_EQ(carom_snapshot_load(world, changed, size), CAROM_OK);
+                CHECK_EQ(carom_snapshot_load(world, saved, size), CAROM_OK);
+            } else {
+                REFUSE(carom_snapshot_load(world, changed, size), CAROM_ERR_FORMAT);
+            }
+        }
+    }
+}
+
 /* The tag of a section ends the snapshot of a world without bodies, just before the sum: there is nothing that it could hold. */
 static void test_empty(void)
 {
@@ -115,6 +142,7 @@ static void test_empty(void)
 const struct test tests_world_sections[] = {
     {"world_sections/pairs", test_pairs},
     {"world_sections/forces", test_forces},
+    {"world_sections/filters", test_filters},
     {"world_sections/empty", test_empty},
     {0},
 };

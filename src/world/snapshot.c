@@ -151,15 +151,21 @@ static void stream_all_forces(struct stream *s, const struct carom_world *w)
     }
 }
 
-static bool has_filter(const struct body *b)
+static bool is_own(const struct carom_filter *f)
 {
-    return b->def.mesh && !(b->def.category == 1 && b->def.mask == 0xffff && b->def.group == 0);
+    return !(f->category == 1 && f->mask == 0xffff && f->group == 0);
 }
 
-/* Pass all filters. */
+static bool has_filter(const struct body *b)
+{
+    return b->def.mesh &&
+           is_own(&(struct carom_filter){b->def.category, b->def.mask, b->def.group});
+}
+
+/* Pass all filters. Those of a section are not all of the usual kind, and none is of zeros. */
 static void stream_filters(struct stream *s, const struct carom_world *w)
 {
-    bool any = false;
+    bool any = false, own = false;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
         any = any || has_filter(&w->bodies[i]);
@@ -182,11 +188,14 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
         }
         if (s->loading) {
             int group = parts[2] < 0x8000 ? parts[2] : parts[2] - 0x10000;
+            struct carom_filter *filter = &body_loaded(&s->into[i])->filter;
 
-            body_loaded(&s->into[i])->filter =
-                (struct carom_filter){parts[0], parts[1], (int16_t)group};
+            *filter = (struct carom_filter){parts[0], parts[1], (int16_t)group};
+            own = own || is_own(filter);
+            s->failed |= (parts[0] | parts[1] | parts[2]) == 0;
         }
     }
+    s->failed |= s->loading && any && !own;
 }
 
 /* Give a body the filter and the forces that were read for it. */
