@@ -168,7 +168,7 @@ static bool is_behind(const struct swept *s, int32_t from_q30)
 }
 
 /* Test the part at hand against the body: gather all candidates near it. */
-static int ask_part(struct swept *s)
+FIX_OWN_FRAME static int ask_part(struct swept *s)
 {
     static const struct pair pair = {0, 1};
     const struct interfere_pairs all = {s->bodies, &pair, 1};
@@ -227,10 +227,9 @@ static void ask_windows(struct swept *s, struct ahead *h, int32_t from_q30, int3
 }
 
 /*
- * Test the part at hand against the body by the faces ahead, list by list; if those are too many
- * gather the whole part.
+ * Test the part at hand against the body by the faces ahead, list by list. Returns false if those are too many.
  */
-static int ask_ahead(struct swept *s, struct ahead *h)
+static bool ask_ahead(struct swept *s, struct ahead *h)
 {
     int32_t from = s->from_q30;
 
@@ -238,40 +237,60 @@ static int ask_ahead(struct swept *s, struct ahead *h)
         int32_t to = end_of_part(s);
 
         if (from >= to || !ahead_stretch(h, from, to)) {
-            return CAROM_OK;
+            return true;
         }
         if (!ahead_list(h)) {
-            break;
+            return false;
         }
         ask_windows(s, h, from, to);
         if (h->end == AHEAD_WHOLE) {
-            return CAROM_OK;
+            return true;
         }
         from += (int32_t)((int64_t)(to - from) * h->end >> TIMES_BITS);
     }
-    return ask_part(s);
+    return false;
+}
+
+/*
+ * Test parts of a straight way by the faces ahead, up to one that must be gathered. Returns its
+ * start, or the end of what matters of the way. A gather goes as deep, so it runs when this is over.
+ */
+FIX_OWN_FRAME static int32_t ask_straight(struct swept *s, int32_t from_q30)
+{
+    struct ahead ahead;
+
+    body_place(&s->bodies[0], &s->state);
+    if (!ahead_begin(&ahead, &s->w->interfere, &s->bodies[0], &s->bodies[1], &s->way->way,
+                     s->length_q30)) {
+        return from_q30;
+    }
+    for (; from_q30 < CAROM_ONE_Q30 && !is_behind(s, from_q30); from_q30 = s->to_q30) {
+        begin_part(s, from_q30);
+        if (!ask_ahead(s, &ahead)) {
+            break;
+        }
+    }
+    return from_q30;
 }
 
 /* Test the mesh on its way against one body. */
 static int ask_body(struct swept *s, uint32_t i)
 {
     const struct body_state *at = &world_now(s->w)->bodies[i];
-    struct ahead ahead;
+    int32_t from_q30 = 0;
     int result = CAROM_OK;
-    bool straight;
 
     copy_body(s, i);
-    body_place(&s->bodies[0], &s->state);
-    straight = s->straight && ahead_begin(&ahead, &s->w->interfere, &s->bodies[0], &s->bodies[1],
-                                          &s->way->way, s->length_q30);
-    for (int32_t from = 0; from < CAROM_ONE_Q30 && !is_behind(s, from) && result == CAROM_OK;
-         from = s->to_q30) {
-        begin_part(s, from);
-        if (straight) {
-            result = ask_ahead(s, &ahead);
-        } else if (!stays_apart(s, &s->bodies[1], at, from, s->to_q30)) {
+    while (result == CAROM_OK) {
+        from_q30 = s->straight ? ask_straight(s, from_q30) : from_q30;
+        if (from_q30 >= CAROM_ONE_Q30 || is_behind(s, from_q30)) {
+            return CAROM_OK;
+        }
+        begin_part(s, from_q30);
+        if (!stays_apart(s, &s->bodies[1], at, from_q30, s->to_q30)) {
             result = ask_part(s);
         }
+        from_q30 = s->to_q30;
     }
     return result;
 }
@@ -329,7 +348,7 @@ static void set_faces(const struct swept *s, struct carom_mesh_hit *out)
  * Fill in the hit. The pair is set up twice: on the path for the normal, then at the hit's pose for
  * the point.
  */
-static void complete(struct swept *s, struct carom_mesh_hit *out)
+FIX_OWN_FRAME static void complete(struct swept *s, struct carom_mesh_hit *out)
 {
     struct boyse_pair *pair = world_pair(s->w);
     struct boyse_touch touch;
