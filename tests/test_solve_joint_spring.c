@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Springs of joints: weights on them by the closed form, what presses against a limit, a slider that
- * swings many times a frame; and what hangs on a body that left the world.
+ * swings many times a frame, one that is too soft for its time; and what hangs on a body that left
+ * the world.
  */
 #include "body/body.h"
 #include "lib/jointed.h"
 #include "lib/real.h"
 #include "lib/test.h"
+#include "solve/joint_parts.h"
 
 /*
  * A weight on a spring that carries three quarters of it: x = -(g / 4 w^2) (1 - cos w t). With the
@@ -153,10 +155,37 @@ static void test_hangs_on_gone(void)
     }
 }
 
+/*
+ * A soft spring pulls for a short time: by a unit of the last place, and the change of that by
+ * velocity rounds to none. So the pull does not depend on velocity, also where the row moves no body.
+ */
+static void test_too_soft(void)
+{
+    static struct body light;
+    const struct carom_joint_drive drive = {.spring = true, .stiffness_q40 = 64};
+    struct joint_work work;
+
+    light.def.inverse_mass = fix_scale(CAROM_ONE_Q30, 30);
+    memset(&work, 0, sizeof work);
+    work.lightest = &light;
+    work.rows = 1;
+    work.inverse_bits = 30;
+    work.law.spring = true;
+    work.off_q40 = ONE;
+    for (int row = 0; row < 2; row++) {
+        work.inverse[0][0] = row == 0 ? 0 : CAROM_ONE_Q30;
+        work.pull_q30 = CAROM_ONE_Q30 / 64;
+        joint_prepare_spring(&work, &drive);
+        CHECK_EQ(work.law.soft_q30, 0);
+        CHECK_EQ(work.elastic_q40, 1);
+    }
+}
+
 const struct test tests_solve_joint_spring[] = {
     {"solve_joint_spring/weight", test_weight},
     {"solve_joint_spring/presses", test_presses},
     {"solve_joint_spring/stiff", test_stiff},
     {"solve_joint_spring/hangs_on_gone", test_hangs_on_gone},
+    {"solve_joint_spring/too_soft", test_too_soft},
     {0},
 };

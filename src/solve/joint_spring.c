@@ -15,7 +15,10 @@ static int64_t by_mass(const struct joint_work *work, int64_t stiff_q40, int bit
     return fix_bits((uint64_t)k_q40) + bits > 60 ? INT64_MAX >> 2 : fix_round_shift(k_q40, bits);
 }
 
-/* part / (all + M), M being the joint's own impulse for a unit of velocity: of 1 at most. */
+/*
+ * part / (all + M), M being the joint's own impulse for a unit of velocity: 1 at most, and 0 where the
+ * part rounds to none, though M may be 0 as well.
+ */
 static int32_t share_q30(const struct joint_work *work, int64_t part_q40, int64_t all_q40)
 {
     int last = work->rows - 1, bits = -2 * joint_row_shift(work, last);
@@ -23,6 +26,9 @@ static int32_t share_q30(const struct joint_work *work, int64_t part_q40, int64_
     int64_t part = by_mass(work, part_q40, bits), all = by_mass(work, all_q40, bits);
 
     own_q40 = fix_round_shift(own_q40, 30 - work->inverse_bits);
+    if (part == 0) {
+        return 0;
+    }
     return own_q40 == 0 ? CAROM_ONE_Q30
                         : (int32_t)fix_mul_scaled(CAROM_ONE_Q30, fix_ratio(part, all + own_q40));
 }
