@@ -306,9 +306,9 @@ meshes: ## give carom-mesh hostile files: each ends in a named error or a right 
 	@$(SUBMAKE) BOARD=host build/tools/carom-mesh
 	@tools/hostile_meshes.py build/tools/carom-mesh --first $(or $(FIRST),1) --count $(N) $(if $(RECORD),--record)
 
-mutants: ## change the engine in one place at a time: do the tests notice? To out/mutants.csv and docs/evidence.md; MUTANTS=500 MOST= FILES= AGAIN=1 RECORD=1
+mutants: ## change the engine in one place at a time: do the tests notice? To out/mutants.csv and docs/evidence.md; MUTANTS=500 MOST= SEED= FILES= AGAIN=1 RECORD=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang-19
-	@tools/mutants.py --count $(or $(MUTANTS),500) $(if $(MOST),--most $(MOST)) --files '$(FILES)' $(if $(AGAIN),--again) $(if $(RECORD),--record)
+	@tools/mutants.py --count $(or $(MUTANTS),500) $(if $(MOST),--most $(MOST)) --seed $(SEED) --files '$(FILES)' $(if $(AGAIN),--again) $(if $(RECORD),--record)
 
 bench: ## count instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)

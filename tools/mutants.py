@@ -1,7 +1,7 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """Change the engine in one place at a time and see whether the tests notice:
-tools/mutants.py [--count N] [--most N] [--files PART] [--seconds S] [--resume] [--again]
+tools/mutants.py [--count N] [--most N] [--seed N] [--files PART] [--seconds S] [--resume] [--again]
 
 A mutant is one change in a source of src/: an operator, a constant by one, a dropped statement or a negated condition. Files have
 mutants by their length, each at least one; the same numbers are the same mutants as long as the file does not change. A mutant
@@ -92,7 +92,7 @@ def mutants_of(path):
             begins = line.rstrip().endswith((";", "{", "}", ":"))
 
 
-def chosen(count, part):
+def chosen(count, part, seed):
     """Mutants by the length of their files; those of a part are the same ones as in the whole."""
     paths = sorted(glob.glob("src/*/*.c", root_dir=ROOT))
     everything = {path: list(mutants_of(path)) for path in paths}
@@ -101,7 +101,7 @@ def chosen(count, part):
         if not any(one in path for one in part.split(",")):
             continue
         share = min(len(mutants), max(1, round(count * len(mutants) / total)))
-        yield from random.Random(path).sample(mutants, share)
+        yield from random.Random(path if seed == 1 else "%s %d" % (path, seed)).sample(mutants, share)
 
 
 def changed(text, mutant):
@@ -307,6 +307,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--most", type=int, help="of these, spread over all files")
+    parser.add_argument("--seed", type=int, default=1, help="of another choice of mutants")
     parser.add_argument("--files", default="", help="parts of their paths, with commas")
     parser.add_argument("--seconds", type=float, help="that the tests of a mutant may take without it")
     parser.add_argument("--resume", action="store_true", help="keep the results of former runs of the same src/")
@@ -314,7 +315,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--record", action="store_true")
     arguments = parser.parse_args()
-    mutants = list(chosen(arguments.count, arguments.files))
+    mutants = list(chosen(arguments.count, arguments.files, arguments.seed))
     if arguments.most:
         mutants = random.Random(1).sample(mutants, min(arguments.most, len(mutants)))
     asked = set(map(key_of, mutants))
@@ -326,6 +327,11 @@ def main():
     share = round(100 * counts["caught"] / max(asked, 1), 1)
     print("%d mutants: %s; %.1f %% of %d caught" % (len(rows), ", ".join("%d %s" % (n, what) for what, n in sorted(counts.items())),
                                                     share, asked))
+    if arguments.seed != 1:
+        if arguments.record:
+            evidence.record("mutants", {"other mutants that tests could notice": (asked, "sum"),
+                                        "other mutants, caught": (counts["caught"], "sum")})
+        return 0
     if arguments.record:
         keep_caught(rows)
         evidence.record("mutants", {"mutants": (len(rows), "fact"),
