@@ -114,9 +114,10 @@ static int force_contact(struct step *s, const struct boyse_hit *hit)
     struct boyse_pair *pair = step_set_pair(s->w, hit->candidate.pair);
 
     boyse_pair_for(pair, &hit->candidate);
-    return !hit->touch.valid || contact_force(&s->w->rest.list, pair, hit)
-               ? CAROM_OK
-               : CAROM_ERR_CONTACTS_FULL;
+    if (hit->touch.valid && !contact_force(&s->w->rest.list, pair, hit)) {
+        return CAROM_ERR_CONTACTS_FULL;
+    }
+    return CAROM_OK;
 }
 
 /*

@@ -151,15 +151,14 @@ static void stream_all_forces(struct stream *s, const struct carom_world *w)
     }
 }
 
-static bool is_own(const struct carom_filter *f)
+static bool is_own(uint16_t category, uint16_t mask, int16_t group)
 {
-    return !(f->category == 1 && f->mask == 0xffff && f->group == 0);
+    return !(category == 1 && mask == 0xffff && group == 0);
 }
 
 static bool has_filter(const struct body *b)
 {
-    return b->def.mesh &&
-           is_own(&(struct carom_filter){b->def.category, b->def.mask, b->def.group});
+    return b->def.mesh && is_own(b->def.category, b->def.mask, b->def.group);
 }
 
 /* Pass all filters. Those of a section are not all of the usual kind, and none is of zeros. */
@@ -191,7 +190,7 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
             struct carom_filter *filter = &body_loaded(&s->into[i])->filter;
 
             *filter = (struct carom_filter){parts[0], parts[1], (int16_t)group};
-            own = own || is_own(filter);
+            own = own || is_own(filter->category, filter->mask, filter->group);
             s->failed |= (parts[0] | parts[1] | parts[2]) == 0;
         }
     }
