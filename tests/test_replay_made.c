@@ -241,7 +241,7 @@ static void test_materials(void)
     }
 }
 
-/* What is true or false is 1 or 0; other numbers are refused. */
+/* True is 1 and false is 0; other numbers are refused. */
 static void test_truth(void)
 {
     for (int still = -1; still <= 3; still++) {

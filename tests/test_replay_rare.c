@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What recorders see seldom: long runs, a world made twice, materials by the hundred, meshes that are almost the same. */
+/* Recordings that are rare: long runs, a world made twice, materials by the hundred, meshes that are almost the same. */
 #include <string.h>
 
 #include "carom_replay.h"

@@ -191,7 +191,7 @@ static void test_plastic(void)
 }
 
 /*
- * What an impact without rebound leaves at a gap of 0: V.N opens a quarter of a skin in a frame, if the path does not bend back. If it
+ * An impact without rebound at a gap of 0: V.N opens a quarter of a skin in a frame, if the path does not bend back. If it
  * does, it makes up for that, and opens half a skin.
  */
 static void test_target(void)

@@ -125,7 +125,7 @@ class Caught:
     def order(self, mutant, tests):
         """First the test that caught the mutant in a former run; then those that caught most of its folder for their time; before
         any did, the folder's own suites, the quick ones, and those that run most of the engine."""
-        folder, by = folder_of(mutant.file), self.before.get((mutant.file, code_of(mutant), *map(str, mutant[2:4]), mutant.became[1]))
+        folder, by = folder_of(mutant.file), self.before.get(name_of(mutant))
         own = "tests.elf " + SUITES.get(folder, folder)
         first = {"worlds.elf": 5, "matrix.elf": 1}
         return sorted(tests, key=lambda test: (test.name != by, -(self.counts[folder, test.name] +
@@ -227,6 +227,11 @@ def code_of(mutant):
         return file.read().split("\n")[mutant.line - 1].strip()
 
 
+def name_of(mutant):
+    """A mutant as tests/mutants_caught.csv names it: by the text of its line, since lines move."""
+    return mutant.file, code_of(mutant), *map(str, mutant[2:4]), mutant.became[1]
+
+
 def judgement(mutant):
     """A mutant as the list of those that were judged names it."""
     return mutant.file, code_of(mutant), mutant.change, mutant.became[1]
@@ -286,14 +291,13 @@ def write(rows):
 
 
 def keep_caught(rows):
-    """Write which test caught which mutant. The text of the line is the name, since lines move."""
+    """Write which test caught which mutant."""
     with open(CAUGHT, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["file", "code", "change", "column", "became", "by"])
         for row in sorted(rows, key=lambda row: (row[0], int(row[1]), row)):
             if row[5] == "caught":
-                mutant = Mutant(row[0], int(row[1]), row[2], row[3], (0, row[4]))
-                writer.writerow([row[0], code_of(mutant), *row[2:5], row[6]])
+                writer.writerow([*name_of(Mutant(row[0], int(row[1]), row[2], row[3], (0, row[4]))), row[6]])
 
 
 def former(again):

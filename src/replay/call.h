@@ -30,7 +30,7 @@ enum replay_token {
 };
 #define REPLAY_RUN_MAX 128
 
-/* What acts on a body: a force or an impulse, and where. */
+/* A force or an impulse on a body, and the place where it acts. */
 struct replay_act {
     carom_v3_q40 vector;
     carom_v3_q32 point;

@@ -43,8 +43,8 @@ static struct carom_body_def def_of(const struct body *b)
 }
 
 /* Write a call with at most two numbers. */
-FIX_OWN_FRAME static void note_numbers(struct carom_record *r, enum carom_replay_call op, int body,
-                                       int64_t first, int64_t second)
+FIX_OWN_FRAME static void note_made(struct carom_record *r, enum carom_replay_call op, int body,
+                                    int64_t first, int64_t second)
 {
     struct replay_call call = {.op = (uint8_t)op, .body = body};
 
@@ -133,7 +133,7 @@ FIX_OWN_FRAME static void note_extras(struct carom_record *r, int body)
         note_faces(r, body, b->def.extra);
     }
     for (int k = 1; b->def.extra && b->def.moving && k >= 0; k--) {
-        note_numbers(r, CAROM_CALL_body_set_damping, body, k, 0);
+        note_made(r, CAROM_CALL_body_set_damping, body, k, 0);
     }
 }
 
@@ -152,8 +152,8 @@ FIX_OWN_FRAME static void note_all(struct carom_record *r)
 {
     const struct carom_world *w = r->world;
 
-    note_numbers(r, CAROM_CALL_world_set_combine, 0, w->rest.list.restitution_rule,
-                 w->rest.list.friction_rule);
+    note_made(r, CAROM_CALL_world_set_combine, 0, w->rest.list.restitution_rule,
+              w->rest.list.friction_rule);
     for (uint32_t i = 0; i < w->body_count; i++) {
         note_body(r, (int)i);
         note_move(r, (int)i);
@@ -162,7 +162,7 @@ FIX_OWN_FRAME static void note_all(struct carom_record *r)
         if (w->bodies[i].def.mesh) {
             note_extras(r, (int)i);
         } else {
-            note_numbers(r, CAROM_CALL_body_remove, (int)i, 0, 0);
+            note_made(r, CAROM_CALL_body_remove, (int)i, 0, 0);
         }
     }
     for (uint32_t i = 0; i < w->rest.joints.count; i++) {

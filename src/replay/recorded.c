@@ -21,9 +21,9 @@ FIX_OWN_FRAME static bool note(struct carom_record *r, const struct carom_world 
     return open;
 }
 
-/* Write a call that is given nothing but a number. */
-FIX_OWN_FRAME static bool note_number(struct carom_record *r, const struct carom_world *w,
-                                      enum carom_replay_call op, int body)
+/* Write a call that is given nothing beside the number of a body or a joint. */
+FIX_OWN_FRAME static bool note_bare(struct carom_record *r, const struct carom_world *w,
+                                    enum carom_replay_call op, int body)
 {
     return note(r, w, op, body, "", 0);
 }
@@ -90,21 +90,21 @@ RECORD_POINT(body_push)
 
 int carom_record_world_step(struct carom_record *r, struct carom_world *w)
 {
-    const bool open = note_number(r, w, CAROM_CALL_world_step, 0);
+    const bool open = note_bare(r, w, CAROM_CALL_world_step, 0);
 
     return noted(r, open, CAROM_CALL_world_step, carom_world_step(w));
 }
 
 int carom_record_body_remove(struct carom_record *r, struct carom_world *w, int body)
 {
-    const bool open = note_number(r, w, CAROM_CALL_body_remove, body);
+    const bool open = note_bare(r, w, CAROM_CALL_body_remove, body);
 
     return noted(r, open, CAROM_CALL_body_remove, carom_body_remove(w, body));
 }
 
 int carom_record_joint_remove(struct carom_record *r, struct carom_world *w, int joint)
 {
-    const bool open = note_number(r, w, CAROM_CALL_joint_remove, joint);
+    const bool open = note_bare(r, w, CAROM_CALL_joint_remove, joint);
 
     return noted(r, open, CAROM_CALL_joint_remove, carom_joint_remove(w, joint));
 }
