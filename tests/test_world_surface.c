@@ -450,6 +450,43 @@ static void test_idle(void)
     CHECK_NEAR(state_of(BOX).position.c[2], HALF + 400 * QUANTUM_Q32, 4 * QUANTUM_Q32);
 }
 
+/*
+ * A surface that moves wakes what lies on it: the box counts its 20 quiet frames anew. A box on other ground does not, and falls
+ * asleep when it would have.
+ */
+static void test_stirs(void)
+{
+    enum { GROUND = 2, OTHER };
+    int alone = 0;
+
+    for (int moved = 0; moved < 2; moved++) {
+        struct carom_body_def def;
+        int awake[2] = {0, 0};
+
+        begin(MOST, 0, 1 << 15);
+        def = box_def;
+        def.position = (carom_v3_q32){{CAROM_RATIO(40, 1, 32), 0, 0}};
+        def.stationary = true;
+        CHECK_EQ(carom_body_add(world, &def), GROUND);
+        def.stationary = false;
+        def.position.c[2] = 2 * HALF + CAROM_RATIO(1, 100, 32);
+        CHECK_EQ(carom_body_add(world, &def), OTHER);
+        for (int frame = 1; frame <= 100; frame++) {
+            if (moved &&
+                frame == alone) { /* the next frame would be its last; a corner far from it moves */
+                at[0][2] = -1;
+                CHECK_EQ(put(), CAROM_OK);
+            }
+            CHECK_EQ(carom_world_step(world), CAROM_OK);
+            awake[0] += !state_of(BOX).asleep;
+            awake[1] += !state_of(OTHER).asleep;
+        }
+        alone = moved ? alone : awake[0] + 1;
+        CHECK_EQ(awake[0] + 1, moved ? alone + 19 : alone); /* frame `alone` is the first of 20 */
+        CHECK_EQ(awake[1] + 1, alone);
+    }
+}
+
 /* The surface comes from far below after it stood still for a while, and the box is found. */
 static void test_from_afar(void)
 {
@@ -599,6 +636,7 @@ const struct test tests_world_surface[] = {
     {"world_surface/refused_asleep", test_refused_asleep},
     {"world_surface/no_entries", test_no_entries},
     {"world_surface/idle", test_idle},
+    {"world_surface/stirs", test_stirs},
     {"world_surface/from_afar", test_from_afar},
     {"world_surface/queries", test_queries},
     {"world_surface/snapshot", test_snapshot},
