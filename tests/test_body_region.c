@@ -22,6 +22,7 @@ struct place {
 static struct shape shape;
 static struct body body;
 static struct body_state state;
+static struct body_path whole; /* a path before it is cut */
 
 static void random_vector(struct test_random *r, double size, int64_t v[3], int bits)
 {
@@ -94,10 +95,9 @@ static struct place region_place(double t)
     return found;
 }
 
-/* The place at t of a whole path from the state. */
-static struct place path_place(double t)
+/* The place at t of a path from the state. */
+static struct place place_on(const struct body_path *path, double t)
 {
-    const struct body_path *path = body_path(&body);
     struct place found;
 
     for (int k = 0; k < 3; k++) {
@@ -106,6 +106,16 @@ static struct place path_place(double t)
     }
     turn_axes(found.axes, &state.rotation, &path->u, t);
     return found;
+}
+
+static struct place path_place(double t)
+{
+    return place_on(body_path(&body), t);
+}
+
+static struct place whole_place(double t)
+{
+    return place_on(&whole, t);
 }
 
 /* The largest distance of a corner in one place from itself in another. */
@@ -189,6 +199,77 @@ static void test_holds(void)
     CHECK_MORE(left, CASES / 10);
 }
 
+/* The least room with which the body's region holds over a path of tau_q30. */
+static int32_t least_room(int32_t tau_q30)
+{
+    int32_t low = 0, high = INT32_MAX;
+
+    while (high - low > 1) {
+        int32_t middle = low + (high - low) / 2;
+
+        body.search.region.room_q22 = middle;
+        *(body_region_holds(&body, tau_q30) ? &high : &low) = middle;
+    }
+    return high;
+}
+
+/* Along one axis bounds are exact, but for their rounding: 2 units for the way and its bend, 2 more for a turn. */
+static void check_reach(int axis)
+{
+    const struct body_region *region = &body.search.region;
+    double way = real(region->way.c[axis] + region->bend.c[axis], 40);
+    double reach =
+        real(body.search.reach_q22 - region->room_q22 - BODY_MARGIN_SKINS * body.def.skin_q22, 22);
+
+    CHECK_AT_LEAST(reach, way);
+    CHECK_AT_MOST(reach, way + real(4, 22));
+}
+
+/*
+ * A body flies along one axis with its region. Then it is put aside on this axis, and flies straight to where gravity would have
+ * led it from there: it is farthest from its region halfway. That is the least room with which the region holds, up to the
+ * rounding of a few numbers, which may be no less.
+ */
+static void test_least_room(void)
+{
+    struct test_random r = {34};
+
+    for (int n = 0; n < CASES; n++) {
+        const int axis = n % 3;
+        const int32_t since_q30 = (int32_t)test_random_range(&r, 0, CAROM_ONE_Q30 / 2) & -(n % 2);
+        const int32_t tau_q30 = (int32_t)test_random_range(&r, 1 << 24, CAROM_ONE_Q30 - since_q30);
+        carom_v3_q40 v, none = {{0, 0, 0}}, g = {{0, 0, 0}};
+        double most = 0, room;
+
+        throw_box(&r, 0.3, 0);
+        v = none;
+        v.c[axis] = test_random_range(&r, 0, 1 << 30);
+        body_set_motion(&body, &state, &v, &none);
+        g.c[axis] = test_random_range(&r, 1 << 20, 1 << 30);
+        body_predict(&body, &state, CAROM_ONE_Q30, &g);
+        body_region_begin(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, n);
+        check_reach(axis);
+        if (since_q30 > 0) {
+            body_advance(&body, &state, since_q30, CAROM_ONE_Q30, &g);
+            body_region_advance(&body, since_q30, CAROM_ONE_Q30);
+        }
+        body_velocity(&body, &state, &v);
+        v.c[axis] += fix_mul_q30(g.c[axis], tau_q30) / 2;
+        body_set_motion(&body, &state, &v, &none);
+        state.position.c[axis] += test_random_range(&r, 0, 1 << 20);
+        body_predict(&body, &state, tau_q30, NULL);
+        for (int i = 0; i <= 32; i++) {
+            struct place in = region_place(real(since_q30, 30) + real(tau_q30, 30) * i / 32);
+            struct place on = path_place(i / 32.0);
+
+            most = apart(&in, &on) > most ? apart(&in, &on) : most;
+        }
+        room = real(least_room(tau_q30), 22);
+        CHECK_AT_LEAST(room, most);
+        CHECK_AT_MOST(room, most + real(4, 22));
+    }
+}
+
 static void check_axes(const carom_m3_q30 *found, double wanted[3][3])
 {
     for (int k = 0; k < 9; k++) {
@@ -224,41 +305,61 @@ static void check_sweep(const struct body_sweep *sweep, struct place (*place)(do
     check_axes(&sweep->end, end.axes);
 }
 
-/* Parts of regions that last longer than the path that they continue. */
+/* A region lets its body turn away as far as its room at its radius, but both together by 1 at most. */
+static void check_turn_off(void)
+{
+    const struct body_region *region = &body.search.region;
+    double off = real(region->room_q22, 22) / real(body.def.radius_q22, 22);
+    double most = 1 - 2 * length_q30(&region->u), found = real(body_region_turn_off_q30(&body), 30);
+
+    off = off < most ? off : most;
+    CHECK_AT_LEAST(found, off - real(4, 30));
+    CHECK_AT_MOST(found, off + real(4, 30));
+}
+
+/* Parts of regions that last longer than the path that they continue, up to 64 frames. */
 static void test_region_sweep(void)
 {
     struct test_random r = {32};
 
     for (int n = 0; n < CASES; n++) {
-        int64_t time_q30 = test_random_range(&r, CAROM_ONE_Q30, 8 * (int64_t)CAROM_ONE_Q30);
+        const int frames = n % 7 ? 8 : 64;
+        int64_t time_q30 = test_random_range(&r, CAROM_ONE_Q30, frames * (int64_t)CAROM_ONE_Q30);
         int64_t from_q30 = n % 4 ? test_random_range(&r, 0, time_q30 - 1) : 0;
         int64_t part_q30 =
             n % 3 ? test_random_range(&r, 1, time_q30 - from_q30) : time_q30 - from_q30;
         const struct body_region *region = &body.search.region;
         double from = (double)from_q30 / (double)time_q30,
-               part = (double)part_q30 / (double)time_q30;
+               part = (double)part_q30 / (double)time_q30, slow = 8.0 / frames;
         struct body_sweep sweep;
         carom_v3_q40 g;
 
-        throw_box(&r, 0.3, n % 5 ? 0.06 : 0);
-        random_vector(&r, 0.02, g.c, 40);
+        throw_box(&r, 0.3 * slow, n % 5 ? 0.06 * slow : 0);
+        random_vector(&r, 0.02 * slow * slow, g.c, 40);
         body_predict(&body, &state, CAROM_ONE_Q30, &g);
-        body_region_begin(&body, &state, CAROM_ONE_Q30, time_q30, 1 << 18);
+        body_region_begin(&body, &state, CAROM_ONE_Q30, time_q30, n % 2 ? 1 << 18 : 1 << 22);
         body_region_sweep(region, from_q30, part_q30, &sweep);
         check_sweep(&sweep, region_place, from, from + part,
                     length_q40(&region->bend) * part * part);
         CHECK_AT_LEAST(real(sweep.u_q30, 30), length_q30(&region->u) * part);
         CHECK_AT_MOST(real(sweep.u_q30, 30), length_q30(&region->u) * part + 1e-8);
         CHECK_AT_LEAST(real(sweep.whole_u_q30, 30), length_q30(&region->u));
+        CHECK_AT_MOST(real(sweep.whole_u_q30, 30), length_q30(&region->u) + 1e-8);
+        check_turn_off();
     }
 }
 
-/* A whole path. */
+/*
+ * A whole path, or a part of one. Its rate of turn is 2 u / N with N = (1 + c t)^2 + u^2 t^2, which is at least 1; so the rate falls
+ * by 2 u N' at most, and N' is at most 2 (c + c^2 + u^2).
+ */
 static void test_path_sweep(void)
 {
     struct test_random r = {33};
 
     for (int n = 0; n < CASES; n++) {
+        const struct body_path *path;
+        double from = 0, to = 1, u, c;
         struct body_sweep sweep;
         carom_v3_q40 g;
         int32_t tau_q30;
@@ -267,10 +368,24 @@ static void test_path_sweep(void)
         random_vector(&r, 0.02, g.c, 40);
         tau_q30 = body_slice(&body, &state, (int32_t)test_random_range(&r, 1 << 24, CAROM_ONE_Q30));
         body_predict(&body, &state, tau_q30, &g);
+        path = body_path(&body);
+        whole = *path;
+        if (n % 2) {
+            int32_t from_q30 = (int32_t)test_random_range(&r, 0, CAROM_ONE_Q30 - 1);
+            int32_t to_q30 = (int32_t)test_random_range(&r, from_q30 + 1, CAROM_ONE_Q30);
+
+            body_cut_path(&body, &state, from_q30, to_q30);
+            from = real(from_q30, 30);
+            to = real(to_q30, 30);
+        }
         body_path_sweep(&body, &sweep);
-        check_sweep(&sweep, path_place, 0, 1, length_q40(&body_path(&body)->g));
-        CHECK_AT_LEAST(real(sweep.u_q30, 30), length_q30(&body_path(&body)->u));
-        CHECK_AT_MOST(real(sweep.u_q30, 30), length_q30(&body_path(&body)->u) + 1e-4);
+        check_sweep(&sweep, whole_place, from, to, length_q40(&path->g));
+        u = length_q30(&path->u);
+        c = real(path->c_q30, 30);
+        CHECK_AT_LEAST(real(sweep.u_q30, 30), u);
+        CHECK_AT_MOST(real(sweep.u_q30, 30), u + 1e-4);
+        CHECK_AT_LEAST(real(sweep.whole_u_q30, 30), 2 * (c + c * c + u * u));
+        CHECK_AT_MOST(real(sweep.whole_u_q30, 30), 2 * (c + c / 8 + u * u) + 1e-8);
     }
 }
 
@@ -305,9 +420,7 @@ static void test_turned_off(void)
 }
 
 const struct test tests_body_region[] = {
-    {"body_region/turned_off", test_turned_off},
-    {"body_region/holds", test_holds},
-    {"body_region/region_sweep", test_region_sweep},
-    {"body_region/path_sweep", test_path_sweep},
-    {0},
+    {"body_region/turned_off", test_turned_off}, {"body_region/holds", test_holds},
+    {"body_region/least_room", test_least_room}, {"body_region/region_sweep", test_region_sweep},
+    {"body_region/path_sweep", test_path_sweep}, {0},
 };

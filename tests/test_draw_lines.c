@@ -116,7 +116,7 @@ static int64_t off_plane(const int64_t normal[3], int x2, int y2)
 }
 
 /*
- * Ends anywhere, also behind the eye. Pixels lie on the plane through the eye and the line, and
+ * Ends anywhere, also behind the eye, up to the limit of 2^14 units. Pixels lie on the plane through the eye and the line, and
  * there are some where the line's middle is visible. `style`: a style of carom_draw with the line
  * in its paint; -1: carom_draw_line.
  */
@@ -133,8 +133,11 @@ static void expect_anywhere(int style, int count)
         int reds = 0;
 
         for (int e = 0; e < 2; e++) {
+            static const int64_t reaches[] = {400, 400, 20000, 1048000};
+            int64_t reach = reaches[range(&random, 0, 3)];
+
             for (int k = 0; k < 3; k++) { /* in 1/64 unit from the eye */
-                p[e][k] = range(&random, -400, 400);
+                p[e][k] = range(&random, -reach, reach);
             }
         }
         lines[0].from = at(Q32(p[0][0], 64), Q32(p[0][1], 64), Q32(p[0][2] + 256, 64));

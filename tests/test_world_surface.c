@@ -472,9 +472,8 @@ static void test_stirs(void)
         def.position.c[2] = 2 * HALF + CAROM_RATIO(1, 100, 32);
         CHECK_EQ(carom_body_add(world, &def), OTHER);
         for (int frame = 1; frame <= 100; frame++) {
-            if (moved &&
-                frame == alone) { /* the next frame would be its last; a corner far from it moves */
-                at[0][2] = -1;
+            if (moved && frame == alone) { /* before its last quiet frame */
+                at[0][2] = -1;             /* a corner far from it */
                 CHECK_EQ(put(), CAROM_OK);
             }
             CHECK_EQ(carom_world_step(world), CAROM_OK);
