@@ -43,6 +43,16 @@ static double length_q30(const carom_v3_q30 *v)
     return real_length((double[3]){real(v->c[0], 30), real(v->c[1], 30), real(v->c[2], 30)});
 }
 
+/* Sometimes a vector along one axis, whose length is not rounded up. */
+static void straighten(struct test_random *r, int64_t v[3])
+{
+    int axis = (int)test_random_range(r, 0, 11);
+
+    for (int k = 0; k < 3 && axis < 3; k++) {
+        v[k] = k == axis ? v[k] : 0;
+    }
+}
+
 /* A box of three different sides with any place and rotation, and a motion. */
 static void throw_box(struct test_random *r, double speed, double spin)
 {
@@ -53,6 +63,7 @@ static void throw_box(struct test_random *r, double speed, double spin)
     state.rotation = shape_random_turn(r);
     random_vector(r, 100, state.position.c, 32);
     random_vector(r, speed, v.c, 40);
+    straighten(r, v.c);
     random_vector(r, spin, w.c, 40);
     body_set_motion(&body, &state, &v, &w);
 }
@@ -312,9 +323,8 @@ static void check_turn_off(void)
     double off = real(region->room_q22, 22) / real(body.def.radius_q22, 22);
     double most = 1 - 2 * length_q30(&region->u), found = real(body_region_turn_off_q30(&body), 30);
 
-    off = off < most ? off : most;
-    CHECK_AT_LEAST(found, off - real(4, 30));
-    CHECK_AT_MOST(found, off + real(4, 30));
+    CHECK_AT_LEAST(found, off < most ? off : most - real(4, 30));
+    CHECK_AT_MOST(found, (off < most ? off : most) + real(2, 30));
 }
 
 /* Parts of regions that last longer than the path that they continue, up to 64 frames. */
@@ -335,7 +345,8 @@ static void test_region_sweep(void)
         carom_v3_q40 g;
 
         throw_box(&r, 0.3 * slow, n % 5 ? 0.06 * slow : 0);
-        random_vector(&r, 0.02 * slow * slow, g.c, 40);
+        random_vector(&r, n % 6 ? 0.02 * slow * slow : 0, g.c, 40);
+        straighten(&r, g.c);
         body_predict(&body, &state, CAROM_ONE_Q30, &g);
         body_region_begin(&body, &state, CAROM_ONE_Q30, time_q30, n % 2 ? 1 << 18 : 1 << 22);
         body_region_sweep(region, from_q30, part_q30, &sweep);
@@ -365,7 +376,8 @@ static void test_path_sweep(void)
         int32_t tau_q30;
 
         throw_box(&r, 0.3, n % 5 ? 0.5 : 0);
-        random_vector(&r, 0.02, g.c, 40);
+        random_vector(&r, n % 6 ? 0.02 : 0, g.c, 40);
+        straighten(&r, g.c);
         tau_q30 = body_slice(&body, &state, (int32_t)test_random_range(&r, 1 << 24, CAROM_ONE_Q30));
         body_predict(&body, &state, tau_q30, &g);
         path = body_path(&body);
