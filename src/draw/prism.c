@@ -2,15 +2,11 @@
 /* The prisms behind a solid's outline, and the parts of polygons inside them. */
 #include "prism.h"
 
-/*
- * Set the inward normal, q28, of the plane through an edge and the light. Returns false for an edge
- * along the light.
- */
+/* Set the inward normal of the plane through an edge and the light. Returns false for an edge along the light. */
 static bool side_through(carom_v3_q30 *side, const int32_t sun[3], const int32_t a[3],
                          const int32_t b[3])
 {
     int64_t across[3], edge[3];
-    bool is;
 
     for (int k = 0; k < 3; k++) {
         edge[k] = (int64_t)b[k] - a[k];
@@ -21,11 +17,7 @@ static bool side_through(carom_v3_q30 *side, const int32_t sun[3], const int32_t
 
         across[k] = sun[i] * edge[j] - sun[j] * edge[i];
     }
-    is = fix_normalise(side, across);
-    for (int k = 0; k < 3; k++) {
-        side->c[k] >>= 2;
-    }
-    return is;
+    return fix_normalise(side, across);
 }
 
 /* Set the plane of a triangle; inward is away from the light. */
@@ -121,7 +113,7 @@ int prism_cut(const struct prism *prism, int32_t polygon[DRAW_CLIP_MAX][3], int 
             for (int k = 0; k < 3; k++) {
                 from[k] = polygon[i][k] - corner[k];
             }
-            inside[i] = carom_dot(prism->side[s].c, from) >> 28;
+            inside[i] = carom_dot(prism->side[s].c, from) >> 30;
             any = any || inside[i] > 0;
             all = all && inside[i] >= 0;
         }

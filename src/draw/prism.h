@@ -28,7 +28,7 @@ struct prism_extent {
 
 /* The volume that a triangle of the outline shades. */
 struct prism {
-    carom_v3_q30 side[PRISM_SIDES]; /* inward normals, q28; the last is the triangle's own plane */
+    carom_v3_q30 side[PRISM_SIDES]; /* inward normals; the last is the triangle's own plane */
     int32_t corner[3][3];           /* corner k lies on side k, corner 0 on the last */
     struct prism_extent extent;
 };

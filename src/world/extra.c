@@ -29,7 +29,6 @@ void world_drop_extra(struct carom_world *w, uint32_t body)
 
     if (extra) {
         memset(extra, 0, sizeof *extra);
-        w->bodies[body].def.extra = NULL;
         w->pools[CAROM_POOL_extras].used--;
     }
 }

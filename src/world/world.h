@@ -204,7 +204,7 @@ bool world_find_body(const struct carom_world *w, int *body);
  * extra changes nothing: its fields say what holds for a body without one.
  */
 struct body_extra *world_extra(struct carom_world *w, uint32_t body);
-/* Give a body's extra back, if it has one. */
+/* Give the extra of a body back, if it has one; the body is cleared next. */
 void world_drop_extra(struct carom_world *w, uint32_t body);
 
 /* True if each component is at most `limit` in size. */
