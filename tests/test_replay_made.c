@@ -26,33 +26,6 @@ static int play_in(size_t bytes)
 
 /* ------------------------------------------------------------ files byte by byte */
 
-static void put(uint64_t value, int bytes)
-{
-    for (int i = 0; i < bytes; i++) {
-        const uint8_t byte = (uint8_t)(value >> 8 * i);
-
-        write_file(NULL, &byte, 1);
-    }
-}
-
-/* An `n` of the format. */
-static void put_n(int64_t v)
-{
-    uint64_t left = v < 0 ? ~((uint64_t)v * 2) : (uint64_t)v * 2;
-
-    for (; left > 0x7f; left >>= 7) {
-        put(left % 0x80 + 0x80, 1);
-    }
-    put(left, 1);
-}
-
-static void put_zeros(int count)
-{
-    for (int i = 0; i < count; i++) {
-        put_n(0);
-    }
-}
-
 static void put_header(void)
 {
     file_bytes = 0;

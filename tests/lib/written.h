@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* written - the file that a recorder of a test source writes, and playing it. */
+/* written - the file that a recorder of a test source writes, or that it makes byte by byte; playing it. */
 #ifndef CAROM_TEST_WRITTEN_H
 #define CAROM_TEST_WRITTEN_H
 
@@ -19,6 +19,34 @@ static inline void write_file(void *user, const void *bytes, size_t count)
     if (file_bytes + count <= sizeof file) {
         memcpy(file + file_bytes, bytes, count);
         file_bytes += count;
+    }
+}
+
+/* Append a number of so many bytes, the lowest first. */
+static inline void put(uint64_t value, int bytes)
+{
+    for (int i = 0; i < bytes; i++) {
+        const uint8_t byte = (uint8_t)(value >> 8 * i);
+
+        write_file(NULL, &byte, 1);
+    }
+}
+
+/* Append an `n` of the format. */
+static inline void put_n(int64_t v)
+{
+    uint64_t left = v < 0 ? ~((uint64_t)v * 2) : (uint64_t)v * 2;
+
+    for (; left > 0x7f; left >>= 7) {
+        put(left % 0x80 + 0x80, 1);
+    }
+    put(left, 1);
+}
+
+static inline void put_zeros(int count)
+{
+    for (int i = 0; i < count; i++) {
+        put_n(0);
     }
 }
 
