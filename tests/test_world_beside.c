@@ -172,7 +172,8 @@ static void act(void)
         CAROM_ONE_Q30 / 2, (uint32_t)(any(1 << 15) + (1 << 15)), 1 << 12, {{0, 0, 0}}};
     struct carom_filter filter = {.category = (uint16_t)(any(3) + 4), .mask = 0xffff};
     struct carom_pose pose = {.position = {{any(Q32(600)), any(Q32(600)), Q32(400)}},
-                              .rotation = {{CAROM_ONE_Q30, 0, 0, 0}}};
+                              .rotation = {{CAROM_ONE_Q30, (int32_t)any(1 << 22),
+                                            (int32_t)any(1 << 22), (int32_t)any(1 << 22)}}};
     struct carom_body_state state;
 
     switch (test_random_range(&chance, 0, 9)) {
@@ -230,9 +231,9 @@ static void calm(void)
     }
 }
 
-static void check_bodies(void)
+static void check_bodies(int count)
 {
-    for (int i = 0; i < BODIES; i++) {
+    for (int i = 0; i < count; i++) {
         struct carom_body_state s[2];
 
         memset(s, 0, sizeof s);
@@ -335,7 +336,7 @@ static void test_alike(void)
             }
             CHECK_AT_LEAST(carom_world_step(world[0]), 0);
             CHECK_AT_LEAST(carom_world_step(world[1]), 0);
-            check_bodies();
+            check_bodies(BODIES);
             check_events();
             if (frame % 10 == 0) {
                 check_queries();
@@ -344,4 +345,32 @@ static void test_alike(void)
     }
 }
 
-const struct test tests_world_beside[] = {{"world_beside/alike", test_alike}, {0}};
+/* Each part by itself, as the only body of its world; it is pushed. */
+static void test_only(void)
+{
+    const carom_v3_q40 push = {{Q40(1) / 8, Q40(1) / 16, Q40(1) / 4}};
+    const int body = 0;
+
+    make_meshes();
+    for (first = 0; first < BODIES; first++) {
+        begin(0);
+        begin(1);
+        for (int which = 0; which < 2; which++) {
+            for (int i = 1; i < BODIES; i++) {
+                CHECK_EQ(carom_body_remove(world[which], numbered(which, i)), CAROM_OK);
+            }
+        }
+        for (int frame = 0; frame < 30; frame++) {
+            if (frame == 10) {
+                BOTH(result, carom_body_push_centre(w, b, &push));
+            }
+            CHECK_AT_LEAST(carom_world_step(world[0]), 0);
+            CHECK_AT_LEAST(carom_world_step(world[1]), 0);
+            check_bodies(1);
+            check_events();
+        }
+    }
+}
+
+const struct test tests_world_beside[] = {
+    {"world_beside/alike", test_alike}, {"world_beside/only", test_only}, {0}};
