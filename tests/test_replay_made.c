@@ -102,7 +102,7 @@ static void check_right(void)
 static void test_early(void)
 {
     static const uint8_t early[][3] = {
-        {0x3a},    /* sleeping bodies look for sensors */
+        {0x3a},    /* of older recordings */
         {0x3b, 0}, /* no joint in a place */
         {CAROM_CALL_world_set_combine, 0, 0},
         {CAROM_CALL_body_set_face_materials, 0, 0},

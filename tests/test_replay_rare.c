@@ -289,10 +289,48 @@ static void test_too_many(void)
 }
 #endif
 
+/*
+ * A sensor was put around a cube that sleeps just before a recording begins: the first step reports the cube, here and when it is
+ * played, with the same digests of its stages.
+ */
+static void test_sensor(void)
+{
+    struct carom_config sleepy = plain;
+    struct carom_body_def around = {&mesh, .stationary = true, .sensor = true,
+                                    .position = {{0, 0, CAROM_POSITION_MM(1300)}}};
+    const struct carom_event *events;
+    struct carom_body_state state;
+    struct carom_world *world;
+
+    memset(&record, 0, sizeof record);
+    sleepy.sleep = true;
+    world = begin(&sleepy);
+    add_bodies(world, 0);
+    record_steps(world, 120);
+    CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
+    CHECK(state.asleep);
+    CHECK_EQ(carom_body_add(world, &around), 2);
+    file_bytes = 0;
+    CHECK_EQ(carom_record_begin(&record, write_file, NULL, true, NULL), CAROM_OK);
+    CHECK_EQ(carom_record_world(&record, world, memory, sizeof memory), CAROM_OK);
+    record_steps(world, 2);
+    CHECK_EQ(carom_record_end(&record), CAROM_OK);
+    CHECK_EQ(carom_replay_begin(&player, file, file_bytes, room, sizeof room), CAROM_OK);
+    CHECK_EQ(carom_replay_frame(&player), CAROM_REPLAY_FRAME);
+    CHECK_EQ(carom_events(player.world, &events), 1);
+    CHECK_EQ(events[0].kind, CAROM_EVENT_SENSOR_BEGIN);
+    CHECK_EQ(events[0].a, 2);
+    CHECK_EQ(events[0].b, 1);
+    CHECK_EQ(carom_replay_frame(&player), CAROM_REPLAY_FRAME);
+    CHECK_EQ(carom_events(player.world, &events), 0);
+    CHECK_EQ(carom_replay_frame(&player), CAROM_REPLAY_END);
+}
+
 const struct test tests_replay_rare[] = {
     {"replay_rare/run", test_run},
     {"replay_rare/twice", test_twice},
     {"replay_rare/mass", test_mass},
+    {"replay_rare/sensor", test_sensor},
     {"replay_rare/all_materials", test_all_materials},
     {"replay_rare/overlaps", test_overlaps},
     {"replay_rare/meshes", test_meshes},

@@ -224,9 +224,47 @@ static void test_who(void)
     CHECK_EQ(boxes_state(w, inside).velocity.c[0], 0);
 }
 
+/*
+ * A sensor is put around a box that sleeps, and the next step reports the box: also if a load was refused in between, and if a
+ * snapshot of that moment was loaded.
+ */
+static void test_put_around(void)
+{
+    for (int load = 0; load < 3; load++) {
+        struct carom_world *w;
+        struct carom_body_def def;
+        int sensor, box, bytes;
+
+        begin();
+        w = boxes_world(0);
+        def = boxes_def(FLOOR, 0, 0, -256);
+        def.stationary = true;
+        boxes_add(w, &def);
+        def = boxes_def(BOX, 0, 0, 160);
+        box = boxes_add(w, &def);
+        boxes_step(w, 60);
+        CHECK(boxes_state(w, box).asleep);
+        sensor = add_sensor(w, ZONE, 0, 0, 600, true);
+        CHECK(boxes_state(w, box).asleep);
+        bytes = carom_snapshot_save(w, saved, sizeof saved);
+        CHECK_MORE(bytes, 0);
+        if (load == 1) {
+            saved[bytes - 1] ^= 1;
+            CHECK_EQ(carom_snapshot_load(w, saved, (size_t)bytes), CAROM_ERR_FORMAT);
+        } else if (load == 2) {
+            CHECK_EQ(carom_snapshot_load(w, saved, (size_t)bytes), CAROM_OK);
+        }
+        boxes_step(w, 1);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 1);
+        boxes_step(w, 1);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 0);
+    }
+}
+
 const struct test tests_world_sensor[] = {{"world_sensor/fall", test_fall},
                                           {"world_sensor/through", test_through},
                                           {"world_sensor/unnoticed", test_unnoticed},
                                           {"world_sensor/asleep", test_asleep},
+                                          {"world_sensor/put_around", test_put_around},
                                           {"world_sensor/who", test_who},
                                           {0}};

@@ -17,8 +17,7 @@
 /* First bytes of what is not a call in full; a lower byte is the number of a call. */
 enum replay_token {
     REPLAY_TOKEN_END = 0,
-    REPLAY_TOKEN_ANEW =
-        0x3a, /* bodies were added since the last step: sleeping bodies look for sensors */
+    REPLAY_TOKEN_ANEW = 0x3a,  /* of older recordings: sleeping bodies look for sensors */
     REPLAY_TOKEN_JOINT = 0x3b, /* a joint that existed when a recording began */
     REPLAY_TOKEN_CHECK = 0x3c, /* the check of a step, after its answers and its result */
     REPLAY_TOKEN_MESH = 0x3d,

@@ -255,8 +255,7 @@ static int go_on(struct carom_replay *p)
         return play_joint(p);
     }
     if (token == REPLAY_TOKEN_ANEW && p->world) {
-        p->world->sense_anew = true;
-        return CAROM_OK;
+        return CAROM_OK; /* the load before it said so already */
     }
     return token < CAROM_CALL_COUNT ? perform_new(p, token) : CAROM_ERR_FORMAT;
 }

@@ -178,6 +178,7 @@ static void forget(struct carom_world *w)
     }
     w->idle = false;
     w->regions_stale = true;
+    w->sense_anew = w->sensors > 0; /* as after a load */
 }
 
 int carom_record_world(struct carom_record *r, struct carom_world *w, void *mem, size_t bytes)
@@ -203,9 +204,6 @@ int carom_record_world(struct carom_record *r, struct carom_world *w, void *mem,
     record_call(r, &call);
     record_bytes(r, mem, call.count);
     record_result(r, call.op, CAROM_OK);
-    if (w->sense_anew) {
-        record_token(r, REPLAY_TOKEN_ANEW);
-    }
     record_ask(r, &w->config);
     forget(w);
     return CAROM_OK;

@@ -452,7 +452,8 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
         w->now = next;
         w->config.gravity = s.gravity;
         w->passing |= next->through_count > 0;
-        w->route_to = body_route_to; /* a body may be led to a pose */
+        w->route_to = body_route_to;    /* a body may be led to a pose */
+        w->sense_anew = w->sensors > 0; /* a sensor may have come after the last step */
         (void)drives_again(&s, w, next, DRIVES_TAKE);
     }
     /* a step relies on bodies that stand still being equal in both states */
@@ -467,6 +468,5 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     }
     w->idle = false;
     w->regions_stale = true;
-    w->sense_anew = false;
     return good ? CAROM_OK : fits ? CAROM_ERR_FORMAT : CAROM_ERR_EXTRAS_FULL;
 }
