@@ -546,7 +546,7 @@ struct carom_contact {
 };
 
 /**
- * Copy the contacts of the last solve of the step.
+ * Copy the contacts of the last solve of the step. After a surface was moved there are none until the next step.
  *
  * @param[out] contacts  may be NULL if `max` is 0
  * @param max            how many to copy at most

@@ -475,6 +475,7 @@ static void test_stirs(void)
             if (moved && frame == alone) { /* before its last quiet frame */
                 at[0][2] = -1;             /* a corner far from it */
                 CHECK_EQ(put(), CAROM_OK);
+                CHECK_EQ(carom_contacts(world, NULL, 0), 0); /* their pairs are gone */
             }
             CHECK_EQ(carom_world_step(world), CAROM_OK);
             awake[0] += !state_of(BOX).asleep;

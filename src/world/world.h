@@ -67,7 +67,7 @@ struct carom_world {
     bool idle;              /* the last step found no body awake, and nothing has changed since */
     bool passing;           /* pairs may pass through each other: there is or was a reason for it */
     bool regions_stale : 1; /* bodies have changed since regions and pairs were set */
-    bool sense_anew : 1; /* a load, or bodies added or set: what sleeps may overlap another sensor */
+    bool sense_anew : 1;    /* since a load, or bodies came: what sleeps may be in another sensor */
     PHASE_TAG(scratch_phase)
     struct body *bodies;
     union world_scratch *scratch;
