@@ -2,7 +2,7 @@
 /*
  * Where a thing stands in its pool means nothing. One world has bodies with joints, materials, sensors and more, and random calls;
  * the other has the same, and before them a group far away, which takes the first places of each pool. The bodies of both move alike
- * to the bit, their events come in the same order, and queries find the same.
+ * to the bit, their events come in the same order, and queries find the same. So do worlds of which one gets calls that are refused.
  */
 #include <string.h>
 
@@ -35,7 +35,7 @@ static _Alignas(8) uint8_t block[2][CAROM_WORLD_BYTES(CAPS)];
 static int16_t corners[MESHES][8][3];
 static struct carom_mesh mesh[MESHES];
 static struct carom_world *world[2];
-static struct test_random chance;
+static struct test_random chance, more;
 static int first; /* the number of part 0 in the first world */
 
 static int64_t any(int64_t most)
@@ -319,10 +319,56 @@ static void check_queries(void)
     }
 }
 
-static void test_alike(void)
+/* A call on the second world that is refused, whatever its state. */
+static int refused_call(struct carom_world *w, int b)
+{
+    static uint8_t saved[8192];
+    const carom_v3_q40 huge = {{0, INT64_MAX, 0}};
+    const struct carom_joint_def joint = {.kind = 77, .a = b, .b = CAROM_WORLD};
+    struct carom_body_def def = body_of(CUBE, 0, 0, 0); /* in the ground */
+    struct carom_body_state state;
+    int bytes;
+
+    switch (test_random_range(&more, 0, 7)) {
+    case 0:
+        return carom_body_add(w, &def);
+    case 1:
+        CHECK_EQ(carom_body_get(w, part(1, LAST), &state), CAROM_OK);
+        state.position = def.position;
+        return carom_body_set(w, part(1, LAST), &state);
+    case 2:
+        return carom_joint_add(w, &joint);
+    case 3:
+        return carom_body_set_mass(w, b, 1);
+    case 4:
+        bytes = carom_snapshot_save(w, saved, sizeof saved);
+        CHECK_MORE(bytes, 0);
+        saved[test_random_range(&more, 0, bytes - 1)] ^= 4;
+        return carom_snapshot_load(w, saved, (size_t)bytes);
+    case 5:
+        return carom_body_set_damping(w, b, -1, 0);
+    case 6:
+        return carom_body_push_centre(w, b, &huge);
+    default:
+        return carom_world_set_gravity(w, &huge);
+    }
+}
+
+static void refuse(void)
+{
+    const uint64_t hash = carom_world_hash(world[1]);
+
+    CHECK_LESS(refused_call(world[1], numbered(1, (int)test_random_range(&more, 0, BODIES - 1))),
+               0);
+    CHECK_EQ(carom_world_hash(world[1]), hash);
+}
+
+/* `refusing`: the second world gets calls, too, that are refused and so change nothing of what follows. */
+static void run_both(bool refusing)
 {
     make_meshes();
     for (uint64_t n = 0; n < WORLDS; n++) {
+        more = (struct test_random){n};
         chance = (struct test_random){n};
         first = (int)n % BODIES;
         begin(0);
@@ -334,6 +380,9 @@ static void test_alike(void)
             if (frame == 30) {
                 calm();
             }
+            if (refusing) {
+                refuse();
+            }
             CHECK_AT_LEAST(carom_world_step(world[0]), 0);
             CHECK_AT_LEAST(carom_world_step(world[1]), 0);
             check_bodies(BODIES);
@@ -343,6 +392,16 @@ static void test_alike(void)
             }
         }
     }
+}
+
+static void test_alike(void)
+{
+    run_both(false);
+}
+
+static void test_refused(void)
+{
+    run_both(true);
 }
 
 /* Each part by itself, as the only body of its world; it is pushed. */
@@ -372,5 +431,7 @@ static void test_only(void)
     }
 }
 
-const struct test tests_world_beside[] = {
-    {"world_beside/alike", test_alike}, {"world_beside/only", test_only}, {0}};
+const struct test tests_world_beside[] = {{"world_beside/alike", test_alike},
+                                          {"world_beside/refused", test_refused},
+                                          {"world_beside/only", test_only},
+                                          {0}};
