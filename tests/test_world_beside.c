@@ -34,6 +34,7 @@ static _Alignas(8) uint8_t mesh_block[MESHES][CAROM_MESH_BYTES(8, 12)];
 static _Alignas(8) uint8_t block[2][CAROM_WORLD_BYTES(CAPS)];
 static int16_t corners[MESHES][8][3];
 static struct carom_mesh mesh[MESHES];
+static uint8_t saved[8192];
 static struct carom_world *world[2];
 static struct test_random chance, more;
 static int first; /* the number of part 0 in the first world */
@@ -322,7 +323,6 @@ static void check_queries(void)
 /* A call on the second world that is refused, whatever its state. */
 static int refused_call(struct carom_world *w, int b)
 {
-    static uint8_t saved[8192];
     const carom_v3_q40 huge = {{0, INT64_MAX, 0}};
     const struct carom_joint_def joint = {.kind = 77, .a = b, .b = CAROM_WORLD};
     struct carom_body_def def = body_of(CUBE, 0, 0, 0); /* in the ground */
@@ -354,17 +354,26 @@ static int refused_call(struct carom_world *w, int b)
     }
 }
 
-static void refuse(void)
+static void refuse(struct carom_world *w)
 {
-    const uint64_t hash = carom_world_hash(world[1]);
+    const uint64_t hash = carom_world_hash(w);
 
-    CHECK_LESS(refused_call(world[1], numbered(1, (int)test_random_range(&more, 0, BODIES - 1))),
-               0);
-    CHECK_EQ(carom_world_hash(world[1]), hash);
+    CHECK_LESS(refused_call(w, numbered(1, (int)test_random_range(&more, 0, BODIES - 1))), 0);
+    CHECK_EQ(carom_world_hash(w), hash);
 }
 
-/* `refusing`: the second world gets calls, too, that are refused and so change nothing of what follows. */
-static void run_both(bool refusing)
+/* Go on by a frame, and back. */
+static void roll_back(struct carom_world *w)
+{
+    int bytes = carom_snapshot_save(w, saved, sizeof saved);
+
+    CHECK_MORE(bytes, 0);
+    CHECK_AT_LEAST(carom_world_step(w), 0);
+    CHECK_EQ(carom_snapshot_load(w, saved, (size_t)bytes), CAROM_OK);
+}
+
+/* `trouble` comes before each step of the second world, and must change nothing of what follows. */
+static void run_both(void (*trouble)(struct carom_world *))
 {
     make_meshes();
     for (uint64_t n = 0; n < WORLDS; n++) {
@@ -380,8 +389,8 @@ static void run_both(bool refusing)
             if (frame == 30) {
                 calm();
             }
-            if (refusing) {
-                refuse();
+            if (trouble) {
+                trouble(world[1]);
             }
             CHECK_AT_LEAST(carom_world_step(world[0]), 0);
             CHECK_AT_LEAST(carom_world_step(world[1]), 0);
@@ -396,12 +405,17 @@ static void run_both(bool refusing)
 
 static void test_alike(void)
 {
-    run_both(false);
+    run_both(NULL);
 }
 
 static void test_refused(void)
 {
-    run_both(true);
+    run_both(refuse);
+}
+
+static void test_rolled_back(void)
+{
+    run_both(roll_back);
 }
 
 /* Each part by itself, as the only body of its world; it is pushed. */
@@ -433,5 +447,6 @@ static void test_only(void)
 
 const struct test tests_world_beside[] = {{"world_beside/alike", test_alike},
                                           {"world_beside/refused", test_refused},
+                                          {"world_beside/rolled_back", test_rolled_back},
                                           {"world_beside/only", test_only},
                                           {0}};
