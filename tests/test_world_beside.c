@@ -2,7 +2,8 @@
 /*
  * Where a thing stands in its pool means nothing. One world has bodies with joints, materials, sensors and more, and random calls;
  * the other has the same, and before them a group far away, which takes the first places of each pool. The bodies of both move alike
- * to the bit, their events come in the same order, and queries find the same. So do worlds of which one gets calls that are refused.
+ * to the bit, their events come in the same order, and queries find the same. So do worlds of which
+ * one gets calls that are refused, or goes on by a step and back before each step.
  */
 #include <string.h>
 
@@ -104,13 +105,14 @@ static void add_far(struct carom_world *w)
 static struct carom_body_def def_of(int number)
 {
     const int body = (number + BODIES - first) % BODIES;
-    struct carom_body_def def = body_of(body == GROUND ? PLATE
-                                        : body % 2     ? BAR
-                                                       : CUBE,
+    struct carom_body_def def = body_of(body == GROUND || body == SENSOR ? PLATE
+                                        : body % 2                       ? BAR
+                                                                         : CUBE,
                                         400 * (body % 3), 900 * (body / 3), 300 + 60 * body);
 
-    if (body == GROUND) {
-        def.position = (carom_v3_q32){{0, 0, 0}};
+    if (body == GROUND ||
+        body == SENSOR) { /* the sensor lies over the ground, around what rests on it */
+        def.position = (carom_v3_q32){{0, 0, body == SENSOR ? Q32(210) : 0}};
         def.stationary = true;
     }
     def.kinematic = body == PUSHER;
@@ -165,6 +167,18 @@ static void begin(int which)
         CHECK_EQ(got, result);                                                                     \
     }
 
+/* A body goes, and comes anew. */
+static void renew(int body)
+{
+    BOTH(result, carom_body_remove(w, b));
+    for (int which = 0; which < 2; which++) {
+        struct carom_body_def def = def_of(body);
+
+        def.overlap = CAROM_OVERLAP_PASS;
+        CHECK_EQ(carom_body_add(world[which], &def), numbered(which, body));
+    }
+}
+
 static void act(void)
 {
     const int body = (int)test_random_range(&chance, 0, BODIES - 1);
@@ -208,15 +222,9 @@ static void act(void)
     case 8:
         BOTH(result, carom_body_set_gravity_scale(w, b, 3 << 14));
         break;
-    default: /* a body goes, and comes anew */
+    default:
         if (body != part(0, GROUND)) {
-            BOTH(result, carom_body_remove(w, b));
-            for (int which = 0; which < 2; which++) {
-                struct carom_body_def def = def_of(body);
-
-                def.overlap = CAROM_OVERLAP_PASS;
-                CHECK_EQ(carom_body_add(world[which], &def), numbered(which, body));
-            }
+            renew(body);
         }
         break;
     }
@@ -388,6 +396,9 @@ static void run_both(void (*trouble)(struct carom_world *))
             }
             if (frame == 30) {
                 calm();
+            }
+            if (frame == 90) { /* around what sleeps by now */
+                renew(part(0, SENSOR));
             }
             if (trouble) {
                 trouble(world[1]);
