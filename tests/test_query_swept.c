@@ -70,6 +70,44 @@ static void test_overlap(void)
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), CAROM_ERR_RANGE);
 }
 
+/*
+ * A body 1024, 2048 or 4096 units away along any axes: by 32 bits of the coordinates between it and a mesh, q22, q21 or q20, it would
+ * be in one place with it. The mesh does not meet it, straight on or turning.
+ */
+static void test_far(void)
+{
+    struct carom_mesh_way way = {{{UNIT / 2, UNIT / 4, UNIT / 8}}, {{0, 0, 0}}};
+    struct carom_world *world = asked_world(0);
+    struct carom_body_state state;
+    struct carom_mesh_hit hit;
+    uint16_t body;
+
+    shape_box(&shape[0], 12, 4096, 3000, 2000);
+    shape_ball(&shape[1], 12, 2000);
+    CHECK_EQ(asked_add(world, &shape[1].mesh, true, 0, 0, 0, upright), 0);
+    CHECK_EQ(carom_body_get(world, 0, &state), CAROM_OK);
+    state.overlap = CAROM_OVERLAP_PASS;
+    for (int n = 0; n < 343; n++) {
+        static const int away[] = {-4096, -2048, -1024, 0, 1024, 2048, 4096};
+
+        state.position.c[0] = away[n % 7] * UNIT;
+        state.position.c[1] = away[n / 7 % 7] * UNIT;
+        state.position.c[2] = away[n / 49] * UNIT;
+        CHECK_EQ(carom_body_set(world, 0, &state), CAROM_OK);
+        for (int mesh = 0; mesh < 2; mesh++) {
+            struct carom_query_mesh asked = put(&shape[mesh].mesh, -5 * UNIT / 4, 0, 0);
+            const int here = n == 343 / 2;
+
+            way.turn.c[2] = 0;
+            CHECK_EQ(carom_cast_mesh(world, &asked, &way, NULL, &hit), here);
+            way.turn.c[2] = CAROM_ONE_Q30 / 8;
+            CHECK_EQ(carom_cast_mesh(world, &asked, &way, NULL, &hit), here);
+            asked.position.c[0] = 0;
+            CHECK_EQ(carom_overlap_mesh(world, &asked, NULL, &body, 1), here);
+        }
+    }
+}
+
 /* Down on a plane, past a box; into the box from the side; away from it and along it. */
 static void test_by_hand(void)
 {
@@ -464,6 +502,7 @@ static void test_no_change(void)
 const struct test tests_query_swept[] = {{"query_swept/overlap", test_overlap},
                                          {"query_swept/too_large", test_too_large},
                                          {"query_swept/by_hand", test_by_hand},
+                                         {"query_swept/far", test_far},
                                          {"query_swept/before_later", test_before_later},
                                          {"query_swept/random_ways", test_random_ways},
                                          {"query_swept/every_feature", test_every_feature},
