@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The place of a HIT event: a box in any pose falls onto a floor, or onto another box. */
+/* HIT events: their place, where a box in any pose falls onto a floor or another box; tips that meet. */
 #include <string.h>
 
 #include "lib/real.h"
@@ -208,9 +208,47 @@ static void test_refused(void)
     CHECK_EQ(carom_event_hit(world, &old, &hit), CAROM_ERR_ARGUMENT);
 }
 
+/*
+ * Two tetrahedra, tip over tip a little aside; the upper one starts from rest, and gravity alone takes it to the lower one within a
+ * frame. Before that not even the spheres around them meet.
+ */
+static void test_tips(void)
+{
+    static struct shape tip;
+    struct test_random r = {12};
+
+    shape_tetrahedron(&tip, 12, 4096);
+    for (int n = 0; n < 20; n++) {
+        const int64_t up = CAROM_RATIO(test_random_range(&r, 2005, 2030), 1000, 32);
+        const int64_t aside = CAROM_RATIO(test_random_range(&r, 1, 4), 1000, 32);
+        const int lower = n % 2; /* the number of the lower one */
+        const struct carom_event *event;
+
+        setup(0);
+        CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
+        CHECK_EQ(carom_world_set_gravity(world, &(carom_v3_q40){{-ONE / 8, -ONE / 8, -ONE / 8}}),
+                 CAROM_OK);
+        for (int i = 0; i < 2; i++) {
+            memset(&def, 0, sizeof def);
+            def.mesh = &tip.mesh;
+            def.stationary = i == lower;
+            if (i != lower) {
+                def.position = (carom_v3_q32){{up + aside, up - aside, up}};
+                /* half a turn about (1, -1, 0): its tip is below */
+                def.rotation = (carom_quat_q30){{0, 759250125, -759250125, 0}};
+            }
+            CHECK_EQ(carom_body_add(world, &def), i);
+        }
+        CHECK_EQ(carom_world_step(world), CAROM_OK);
+        CHECK_EQ(carom_events(world, &event), 1);
+        CHECK_EQ(event->kind, CAROM_EVENT_BEGIN); /* a frame of gravity is no impact */
+    }
+}
+
 const struct test tests_world_hits[] = {
     {"world_hits/floor", test_floor},
     {"world_hits/room", test_room},
     {"world_hits/refused", test_refused},
+    {"world_hits/tips", test_tips},
     {0},
 };

@@ -95,7 +95,7 @@ static void list_plane(const struct receiver *r, struct lit *lit)
     }
 }
 
-/* Rotate a triangle's corners so that the top one is first, as in a face. */
+/* Rotate a triangle's corners on the picture so that the top one is first, as in a face. The polygon to cut may begin anywhere. */
 static void top_first(struct lit *lit)
 {
     const struct lit was = *lit;
@@ -105,7 +105,6 @@ static void top_first(struct lit *lit)
     for (int k = 0; k < 3; k++) {
         int from = (top + k) % 3;
 
-        memcpy(lit->corner[k], was.corner[from], sizeof lit->corner[k]);
         lit->on[k] = was.on[from];
         lit->shade_q8[k] = was.shade_q8[from];
     }
