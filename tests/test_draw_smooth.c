@@ -334,6 +334,40 @@ static void oracle(void)
 }
 
 /*
+ * Entries are red and green in turn. What lies between two entries is rounded down in each colour, so red and green, whose exact
+ * sum is 255, are 254 together where both are parts of 255, and never a number that one of the entries does not reach.
+ */
+static void between(void)
+{
+    static uint32_t palette[256];
+    struct test_random random = {79};
+    struct carom_world *world = new_lump(&random);
+    struct carom_paint paint = {
+        .palette = palette, .ramps = 8, .smooth = &carom_smooth, .crease_q30 = -CAROM_ONE_Q30};
+    struct carom_picture picture = picture_of_size(wide, WIDE, WIDE, lump_space, sizeof lump_space);
+    struct carom_camera camera = {
+        .eye = {{0, Q32(-1, 64), Q32(5, 4)}}, .target = {{0, 0, 0}}, .focal_q16 = 4 << 16};
+    int parts = 0;
+
+    for (int i = 0; i < 256; i++) {
+        palette[i] = i % 2 ? 0xff00c8 : 0x00ffc8;
+    }
+    picture.stride = WIDE * 4;
+    picture.format = CAROM_XRGB8888;
+    picture.paint = &paint;
+    CHECK_EQ(carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+    for (int p = 0; p < WIDE * WIDE; p++) {
+        const uint32_t red = wide[p] >> 16, green = wide[p] >> 8 & 255;
+        const bool whole = red == 255 || green == 255;
+
+        CHECK_EQ(wide[p] & 255, 0xc8);
+        CHECK_EQ(red + green, whole ? 255 : 254);
+        parts += !whole;
+    }
+    CHECK_MORE(parts, WIDE * WIDE / 2);
+}
+
+/*
  * Along an edge that is no crease, both sides have the same shades; at a crease they have the
  * shades of their faces.
  */
@@ -505,10 +539,8 @@ static void thin(void)
     }
 }
 
-const struct test tests_draw_smooth[] = {{"draw_smooth/oracle", oracle},
-                                         {"draw_smooth/edges", edges},
-                                         {"draw_smooth/boxes", boxes},
-                                         {"draw_smooth/room", room},
-                                         {"draw_smooth/shared", shared},
-                                         {"draw_smooth/thin", thin},
-                                         {0}};
+const struct test tests_draw_smooth[] = {
+    {"draw_smooth/oracle", oracle}, {"draw_smooth/between", between},
+    {"draw_smooth/edges", edges},   {"draw_smooth/boxes", boxes},
+    {"draw_smooth/room", room},     {"draw_smooth/shared", shared},
+    {"draw_smooth/thin", thin},     {0}};

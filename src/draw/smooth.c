@@ -313,7 +313,7 @@ static void list_clipped(const struct draw_shades *shades, uint32_t face,
 static const uint8_t order[4][4] = {
     {1, 17, 5, 21}, {25, 9, 29, 13}, {7, 23, 3, 19}, {31, 15, 27, 11}};
 
-/* A colour between a palette entry and the next. */
+/* A colour between a palette entry and the next, rounded down. */
 static uint32_t mix(const uint32_t *entry, uint32_t part_q8)
 {
     uint32_t a = entry[0], b = entry[1], keep = 256 - part_q8;
