@@ -4,6 +4,8 @@
 BOARD ?= versatilepb
 FRAMES ?= 600
 OPT ?= -O2
+# Nobody looks at variables in CI. The lines of a failure are enough, and take less time to compile.
+DEBUG_INFO ?= $(if $(CI),-g1,-g)
 LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
 PAPER ?=
@@ -47,7 +49,7 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 space := $(subst ,, )
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined$(if $(FUZZ),$(comma)fuzzer-no-link -fno-sanitize-coverage=trace-cmp) -fno-sanitize-recover))
-CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
+CFLAGS := -std=c11 $(OPT) $(DEBUG_INFO) $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(or $(START),$(firstword $(ROM_SCENES))) -I$(B)/gen) \
