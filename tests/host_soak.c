@@ -27,11 +27,19 @@ static const uint64_t known[] = {53,   103,  173,  178,  215,  267,  340,  406, 
                                  496,  502,  601,  626,  646,  740,  748,  792,  893,
                                  963,  1060, 1098, 1113, 1455, 1468, 1513, 1608, 1678,
                                  1719, 1754, 1791, 1973, 1977, 2123, 2257, 2391, 2502};
-/* Machines in which a sum of an earlier engine left its 32 or 64 bits: the debug build notices. */
-static const struct {
+/* A world's name: "12", "m12", "w12"; and how many of its frames to run, or 0 for all. */
+struct name {
     uint64_t seed;
-    bool wild;
-} known_machines[] = {{50, false}, {102, false}, {121, false}, {14, true}, {68, true}, {123, true}};
+    bool machine, wild;
+    int frames;
+};
+/*
+ * Machines in which a sum of an earlier engine left its 32 or 64 bits: the debug build notices.
+ * In w68 that was in frame 55, and a frame of it takes as long as all frames of another world.
+ */
+static const struct name known_machines[] = {{50, true, false, 0},  {102, true, false, 0},
+                                             {121, true, false, 0}, {14, true, true, 0},
+                                             {68, true, true, 60},  {123, true, true, 0}};
 /* Largest share of frames that may be cut short. */
 #define CUT_ALLOWED 0.01
 
@@ -102,23 +110,17 @@ static void print_row(const struct soak_result *r)
     fflush(stdout);
 }
 
-/* A world's name: "12", "m12", "w12". */
-struct name {
-    uint64_t seed;
-    bool machine, wild;
-};
-
 /* The world at a place in the list that `make test` runs; false behind the last one. */
 static bool known_name(bool machine, size_t place, struct name *name)
 {
     const size_t more = place - FIRST;
 
-    *name = (struct name){place + 1, machine, false};
+    *name = (struct name){place + 1, machine, false, 0};
     if (place < FIRST) {
         return true;
     }
     if (machine && more < sizeof known_machines / sizeof *known_machines) {
-        *name = (struct name){known_machines[more].seed, true, known_machines[more].wild};
+        *name = known_machines[more];
         return true;
     }
     if (!machine && more < sizeof known / sizeof *known) {
@@ -132,7 +134,7 @@ static struct name read_name(const char *text)
 {
     bool wild = *text == 'w', machine = wild || *text == 'm';
 
-    return (struct name){strtoull(text + machine, NULL, 10), machine, wild};
+    return (struct name){strtoull(text + machine, NULL, 10), machine, wild, 0};
 }
 
 static void make(struct name name)
@@ -147,7 +149,7 @@ static void run(struct name name, struct soak_result *r)
 {
     make(name);
     if (soak_start(&world, r)) {
-        while (soak_step(&world, r)) {
+        while (soak_step(&world, r) && r->tally.frames != name.frames) {
         }
     }
 }
