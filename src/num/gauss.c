@@ -186,38 +186,33 @@ static int64_t scale_down(int64_t v, int s)
 }
 
 /*
- * Carry g->y through all steps. Before each step |y| <= 2^30, so products are within 2^62. If a
- * step lets y grow past that all of y is scaled down. Returns the number of bits in all.
+ * Carry g->y through a step. |y| <= 2^30 before it, so products are within 2^61. If it lets y grow
+ * past that all of y is scaled down. Returns by how many bits.
  */
-static int replay(struct gauss *g, int n)
+static int carry(struct gauss *g, int n, int k)
 {
-    int down = 0;
+    int p = g->row[k], s;
+    int32_t pivot = g->pivot[k], yp = (int32_t)g->y[p];
+    uint64_t used = 0;
 
-    for (int k = 0; k < n; k++) {
-        int p = g->row[k];
-        int32_t pivot = g->pivot[k], yp = (int32_t)g->y[p];
-        uint64_t used = 0;
+    for (int i = 0; i < n; i++) {
+        int32_t f = g->a[i][k];
 
-        for (int i = 0; i < n; i++) {
-            int32_t f = g->a[i][k];
+        if (i != p && f != 0) {
+            int64_t t = (int64_t)pivot * (int32_t)g->y[i] - (int64_t)f * yp;
 
-            if (i != p && f != 0) {
-                int64_t t = (int64_t)pivot * (int32_t)g->y[i] - (int64_t)f * yp;
-
-                g->y[i] = carom_round(t, g->shift[i][k]);
-                used |= (uint64_t)carom_abs(g->y[i]);
-            }
-        }
-        if (used >= (uint64_t)FULL) {
-            int s = fix_bits(used) - 30;
-
-            for (int i = 0; i < n; i++) {
-                g->y[i] = scale_down(g->y[i], s);
-            }
-            down += s;
+            g->y[i] = carom_round(t, g->shift[i][k]);
+            used |= (uint64_t)carom_abs(g->y[i]);
         }
     }
-    return down;
+    if (used < (uint64_t)FULL) {
+        return 0;
+    }
+    s = fix_bits(used) - 30;
+    for (int i = 0; i < n; i++) {
+        g->y[i] = scale_down(g->y[i], s);
+    }
+    return s;
 }
 
 /*
@@ -229,20 +224,12 @@ static inline int64_t quotient(const struct gauss *g, int k)
     return (int64_t)(int32_t)g->y[g->row[k]] * g->a[g->row[k]][k];
 }
 
-/*
- * Solve for the residual, which has `bits` bits, times 2^-q. The answer is digits 2^-h; returns h.
- */
-static int correction(struct gauss *g, int n, int bits, int q)
+/* Divide g->y by the diagonal. The answer, in 29 bits, is digits 2^(top - 59); returns top. */
+static int divide_diagonal(struct gauss *g, int n)
 {
-    int s = bits - 30;
     int most = 0, top;
     uint64_t used = 0;
 
-    for (int i = 0; i < n; i++) {
-        g->y[i] = scale_down(g->residual[i], s);
-    }
-    q -= s;
-    q -= replay(g, n);
     for (int k = 0; k < n; k++) {
         most = g->inverse_shift[k] > most ? g->inverse_shift[k] : most;
     }
@@ -253,7 +240,24 @@ static int correction(struct gauss *g, int n, int bits, int q)
     for (int k = 0; k < n; k++) {
         g->a[k][GAUSS_MAX] = (int32_t)scale_down(quotient(g, k), top - g->inverse_shift[k]);
     }
-    return q + 59 - top;
+    return top;
+}
+
+/*
+ * Solve for the residual, which has `bits` bits, times 2^-q. The answer is digits 2^-h; returns h.
+ */
+static int correction(struct gauss *g, int n, int bits, int q)
+{
+    int s = bits - 30;
+
+    for (int i = 0; i < n; i++) {
+        g->y[i] = scale_down(g->residual[i], s);
+    }
+    q -= s;
+    for (int k = 0; k < n; k++) {
+        q -= carry(g, n, k);
+    }
+    return q + 59 - divide_diagonal(g, n);
 }
 
 /*
