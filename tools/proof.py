@@ -82,9 +82,30 @@ def compiled(harness, folder, case):
 def native(harness, folder, case, words):
     """True if the program fails on this machine with these inputs."""
     made = "%s/%s.%s.%d.elf" % (WORK, harness.name, folder.replace("/", "_"), case)
-    subprocess.run(["gcc", "-O1", *LANGUAGE, "-DCASE=%d" % case, SANITIZERS, "-fno-sanitize-recover=all",
-                    "-I%s/src" % folder, "-I%s/include" % folder, "-o", made, harness.path, "tests/proof/native.c"], check=True)
+    source = [*LANGUAGE, "-DCASE=%d" % case, "-I%s/src" % folder, "-I%s/include" % folder, harness.path]
+    if harness.contracts:
+        written = made[:-4] + ".native.ll"
+        subprocess.run(["clang-19", SANITIZERS, "-fsanitize-trap=all", "-S", "-emit-llvm", "-o", written, *source], check=True)
+        stand_in(written, harness.contracts)
+        subprocess.run(["clang-19", "-O1", "-Wno-override-module", "-Iinclude", "-o", made, written, "tests/proof/native.c"], check=True)
+    else:
+        subprocess.run(["gcc", "-O1", SANITIZERS, "-fno-sanitize-recover=all", "-o", made, *source, "tests/proof/native.c"], check=True)
     return subprocess.run([made, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0
+
+
+def stand_in(path, contracts):
+    """Make calls in a file of clang's go to the functions of contracts, but for those in these themselves."""
+    inside, lines = None, []
+    with open(path) as file:
+        for line in file:
+            begun = re.match(r"define .*?@(\w+)\(", line)
+            inside = begun.group(1) if begun else inside
+            if re.search(r"\bcall\b", line):
+                line = re.sub(r"@(\w+)\(", lambda found: found.group(0) if contracts.get(found.group(1), inside) == inside else
+                              "@%s(" % contracts[found.group(1)], line)
+            lines.append(line)
+    with open(path, "w") as file:
+        file.writelines(lines)
 
 
 def limited(seconds):
@@ -92,25 +113,34 @@ def limited(seconds):
     return lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
 
 
-def ask(facts, condition, path, seconds):
-    """("proved", "refuted" or "unknown", the inputs that refute) of what must not hold, by cvc5."""
+def ask(facts, condition, path, seconds, ways=False):
+    """("proved", "refuted" or "unknown", the inputs that refute) of what must not hold, by cvc5. With WAYS it also
+    says which inputs were asked for at all; a proof does not need to know."""
     import z3
     goal = z3.Solver()
     goal.add(*facts.known, condition)
+    names = [str(value.term) for value, _ in facts.inputs]
+    asked = {name: "way_" + name for (_, guard), name in zip(facts.inputs, names) if ways and guard}
+    for (_, guard), name in zip(facts.inputs, names):
+        if name in asked:
+            goal.add(z3.Bool(asked[name]) == z3.And(*guard))
     # z3's own names of quotients whose denominator cannot be 0
     text = re.sub(r"\b(bv[us](?:div|rem|mod))_i\b", r"\1", goal.to_smt2())
-    names = [str(v.term) for v in facts.inputs]
+    known = [name for name in [*names, *asked.values()] if "declare-fun %s " % name in text]
     with open(path, "w") as file:
         file.write("(set-logic QF_BV)\n(set-option :produce-models true)\n" + text)
-        file.write("(get-value (true %s))\n" % " ".join(name for name in names if "declare-fun %s " % name in text))
+        file.write("(get-value (true %s))\n" % " ".join(known))
     said = subprocess.run(["cvc5", path], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                           preexec_fn=limited(seconds)).stdout
     if said.startswith("unsat"):
         return "proved", []
     if not said.startswith("sat"):
         return "unknown", []
+    if not ways:
+        return ask(facts, condition, path, seconds, True)
     found = {name: int(bits, 2) for name, bits in re.findall(r"\((\S+) #b([01]+)\)", said)}
-    return "refuted", [str((found.get(name, 0) + (1 << 63)) % (1 << 64) - (1 << 63)) for name in names]
+    missed = set(re.findall(r"\((\S+) false\)", said))
+    return "refuted", [str((found.get(name, 0) + (1 << 63)) % (1 << 64) - (1 << 63)) for name in names if asked.get(name) not in missed]
 
 
 def solve(run, path, seconds):

@@ -184,8 +184,8 @@ class Run:
                 index, by = values.number(32, by), 1
             if index.width < 32:
                 index = values.widen(self.facts, index, 32, True)
-            moved = values.plus(moved, values.multiply(self.facts, index, values.number(32, by))[0], 1)[0]
-        return Pointer([(condition, thing, values.plus(place, moved, 1)[0]) for condition, thing, place in base.choices])
+            moved = values.place(moved, values.multiply(self.facts, index, values.number(32, by))[0], by)
+        return Pointer([(condition, thing, values.place(place, moved, moved.apart)) for condition, thing, place in base.choices])
 
     def fail(self, state, condition, what):
         """Remember a condition of z3 that must not hold here."""
@@ -204,7 +204,8 @@ class Run:
                 self.fail(guard, True, "access outside of an object")
                 return []
             return [place.low]
-        found = [at for at, cell in state.memory[thing].items() if cell[0] == size and place.low <= at <= place.high]
+        found = [at for at, cell in state.memory[thing].items()
+                 if cell[0] == size and place.low <= at <= place.high and (at - place.low) % place.apart == 0]
         self.fail(guard, z3.And(*[place.term != at for at in found]), "access outside of an array, or before it is written")
         return found
 
@@ -494,8 +495,7 @@ class Run:
             self.fill(state, arguments[0], values.narrow(arguments[1], 8) if arguments[1].width > 8 else arguments[1], arguments[2])
         elif name == "proof_range":
             value = self.facts.fresh("in", arguments[0].low, arguments[1].high, 64)
-            if self.function not in self.contracts.values():
-                self.facts.inputs.append(value)
+            self.facts.inputs.append((value, state.guard))
             return value
         elif name == "proof_assume":
             if arguments[0].constant:

@@ -5,6 +5,8 @@ Intervals decide most comparisons and overflows without a solver. A product is o
 has as many bits as its interval needs. Unless EXACT, nothing is known about a product or a quotient but its interval: that is
 enough for most proofs, and spares the solver the circuits of multipliers.
 """
+import math
+
 import z3
 
 
@@ -40,14 +42,18 @@ def bits_for(low, high):
 
 
 class Value:
-    """A number of `width` bits in [low, high], as a signed one; a truth, of one bit, is 0 or 1 and has a term of z3's Bool."""
-    __slots__ = "width", "term", "low", "high", "key"
+    """A number of `width` bits in [low, high], as a signed one; a truth, of one bit, is 0 or 1 and has a term of z3's Bool.
+
+    Places of an array are low and what is a multiple of `apart` from it; 0 if there is one.
+    """
+    __slots__ = "width", "term", "low", "high", "key", "apart"
 
     def __init__(self, width, term, low, high, key=None):
         floor, ceiling = (0, 1) if width == 1 else (-(1 << (width - 1)), (1 << (width - 1)) - 1)
         if low < floor or high > ceiling:
             low, high, key = floor, ceiling, None
         self.width, self.term, self.low, self.high, self.key = width, term, low, high, key
+        self.apart = 0 if low == high else 1
 
     @property
     def constant(self):
@@ -127,6 +133,14 @@ def plus(x, y, sign):
         return made, number(1, 0)
     a, b = z3.SignExt(1, a), z3.SignExt(1, b)
     return made, truth(z3.SignExt(1, made.term) != (a + b if sign > 0 else a - b))
+
+
+def place(x, y, apart):
+    """x + y, where y is one of those that are `apart`; what may wrap is anywhere."""
+    made = plus(x, y, 1)[0]
+    if fits(x.width - 1, x.low, x.high) and fits(y.width - 1, y.low, y.high) and not made.constant:
+        made.apart = math.gcd(x.apart, 0 if y.constant else apart)
+    return made
 
 
 def shift_left(x, s):
@@ -238,4 +252,14 @@ def choose(condition, x, y):
         return x
     if not x.constant and not y.constant and x.term.eq(y.term):
         return Value(x.width, x.term, min(x.low, y.low), max(x.high, y.high), x.key)
-    return Value(x.width, z3.If(condition, x.bits(), y.bits()), min(x.low, y.low), max(x.high, y.high))
+    return Value(x.width, chosen(condition, x.bits(), y.bits()), min(x.low, y.low), max(x.high, y.high))
+
+
+def chosen(condition, a, b):
+    """The term of a choice. One of a | b and b is b | (a or 0): bits that the result does not have are then not those of b at once."""
+    for more, less, when in ((a, b, condition), (b, a, z3.Not(condition))):
+        if z3.is_app_of(more, z3.Z3_OP_BOR) and more.num_args() == 2:
+            for own, other in (more.children(), reversed(more.children())):
+                if other.eq(less):
+                    return less | z3.If(when, own, z3.BitVecVal(0, own.size()))
+    return z3.If(condition, a, b)
