@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A step of elimination: entries of 2^30 times factors below 2^31 do not overflow, and the new entry is at most 2^30 again.
+ * A step of elimination: entries of 2^30 times factors up to 2^31 do not overflow, and the new entry is at most 2^30 again.
  *
- * bound: all entries up to 2^30, all factors below 2^31, a row of 15
+ * bound: all entries up to 2^30, all factors of 32 bits, a row of 15
  * mutant: src/num/gauss.c: row[j] = (int32_t)(t >> 32) -> row[j] = (int32_t)(t >> 31)
  */
 #include "proof.h"
@@ -10,8 +10,8 @@
 
 void proof(void)
 {
-    int32_t row[15], other[15], scale = (int32_t)proof_range(-INT32_MAX, INT32_MAX);
-    int32_t factor = (int32_t)proof_range(-INT32_MAX, INT32_MAX);
+    int32_t row[15], other[15], scale = (int32_t)proof_range(INT32_MIN, INT32_MAX);
+    int32_t factor = (int32_t)proof_range(INT32_MIN, INT32_MAX);
     uint32_t used;
 
     for (int j = 0; j < 15; j++) {
