@@ -4,7 +4,7 @@
 
 /*
  * Bounds. Entries of rows stay within FULL = 2^30. An elimination forms pivot r + f s from two such
- * entries, with |pivot|, |f| < 2^31: at most 2^62, and its upper word, the new entry, is at most
+ * entries, with |pivot|, |f| <= 2^31: at most 2^62, and its upper word, the new entry, is at most
  * 2^30 again. So a step cannot overflow. It can only leave a row small, and normalising repairs
  * that.
  */

@@ -33,6 +33,6 @@ void proof(void)
     s = carry(&g, GAUSS_MAX, 0);
     proof_check(s >= 0 && s <= 31);
     for (int i = 0; i < GAUSS_MAX; i++) {
-        proof_check(carom_abs(g.y[i]) <= CAROM_ONE_Q30);
+        proof_check(g.y[i] >= -CAROM_ONE_Q30 && g.y[i] <= CAROM_ONE_Q30);
     }
 }

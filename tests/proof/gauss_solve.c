@@ -14,7 +14,8 @@
 #include "num/gauss.c"
 
 static int32_t rows[GAUSS_MAX][GAUSS_MAX + 1];
-static int said, taken; /* what the last part returned; rows whose residual knows of the last correction */
+static int said,
+    taken; /* what the last part returned; rows whose residual knows of the last correction */
 
 static void any_solution(struct gauss *g)
 {
