@@ -48,7 +48,7 @@ TARGET_AR := $(CROSS)ar
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 space := $(subst ,, )
-SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined$(if $(FUZZ),$(comma)fuzzer-no-link -fno-sanitize-coverage=trace-cmp) -fno-sanitize-recover))
+SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined$(if $(FUZZ),$(comma)fuzzer-no-link -fno-sanitize-coverage=trace-cmp,$(if $(findstring clang,$(TARGET_CC)),,$(comma)bounds-strict)) -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) $(DEBUG_INFO) $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
