@@ -23,6 +23,8 @@ PUBLIC = ["include/carom.h", "include/carom_mesh.h", "include/carom_memory.h",
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 ENGINE_FLAGS = ["-std=c11", "-ffreestanding", "-Iinclude"]
+# the processor and the call graphs that check_stack reads; other gates take the same objects
+CORTEX_M3 = ["-mcpu=cortex-m3", "-mthumb", "-fcallgraph-info=su"]
 JOBS = os.cpu_count() or 1
 
 
@@ -58,21 +60,38 @@ def sources(*suffixes):
     return [path for path in listed.split("\n") if path.endswith(suffixes) and os.path.isfile(path)]
 
 
+def read(path):
+    """The text of a file, or nothing if there is none."""
+    if not os.path.exists(path):
+        return ""
+    with open(path) as file:
+        return file.read()
+
+
 def engine():
     return sorted(glob.glob("src/*/*.c"))
 
 
 def objects(folder, compiler, flags):
-    """Compile the engine into build/check/FOLDER; returns the paths of source and object."""
+    """Compile the engine into build/check/FOLDER, or take what another gate made of the same; returns the paths of source and
+    object."""
     folder = os.path.join("build/check", folder)
+    record = folder + "/made_of"
+    command = [compiler, *ENGINE_FLAGS, *flags]
+    ages = ["%s %d" % (path, os.stat(path).st_mtime_ns)
+            for path in sorted(glob.glob("src/*/*.[ch]") + glob.glob("include/*.h"))]
+    made_of = "\n".join([" ".join(command), *ages])
+    pairs = [(path, "%s/%s.o" % (folder, os.path.basename(path)[:-2])) for path in engine()]
+    if read(record) == made_of:
+        return pairs
     os.makedirs(folder, exist_ok=True)
     for old in glob.glob(folder + "/*"):
         os.remove(old)
-    pairs = [(path, "%s/%s.o" % (folder, os.path.basename(path)[:-2])) for path in engine()]
-    failed = complaints([[compiler, *ENGINE_FLAGS, *flags, "-c", path, "-o", made]
-                         for path, made in pairs])
+    failed = complaints([[*command, "-c", path, "-o", made] for path, made in pairs])
     if failed:
         sys.exit("\n".join(failed))
+    with open(record, "w") as file:
+        file.write(made_of)
     return pairs
 
 
