@@ -259,7 +259,8 @@ static int32_t straight_paths(struct step *s, const struct pair *p)
             step_look_ahead(s, both[k], slice_q30);
         } else if (step_active(s, both[k]) && b->clock.to_q30 != s->now_q30 + slice_q30) {
             b->clock.to_q30 = s->now_q30 + slice_q30;
-            if (b->clock.stands) {
+            /* what is out of range goes nowhere, and its group took no slice for it */
+            if (b->clock.stands || !step_in_range(b, &s->next->bodies[both[k]])) {
                 body_place(b, &s->next->bodies[both[k]]);
             } else {
                 body_predict(b, &s->next->bodies[both[k]], slice_q30, NULL);

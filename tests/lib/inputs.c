@@ -14,5 +14,8 @@ const struct input inputs[] = {
     {"snapshot", "a kept impulse above 2^40 units left the friction cone",
      "baad08d1ab21fbfbfbfbfbfbfbfbfbfbfbfb72eb6e29010000000000000100000000000001000000010000af00c"
      "a"},
+    {"snapshot", "a jointed body out of range set out with its group's slice",
+     "d207f39cfcfcfcfcfcfcfcfc2e2326fcfcfcfcfcfcfcfcfc21fc811032238fc32019af2393beb9db40bf2dca47"
+     "9515cb9480ca479555cb948003502c1e"},
     {NULL, NULL, NULL}, /* the end */
 };
