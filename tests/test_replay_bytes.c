@@ -266,22 +266,6 @@ static void call_joint(void)
 
 /* ------------------------------------------------------------------- a world */
 
-static void put_mesh(void)
-{
-    put(0x3d, 1);
-    put(0, 1); /* it does not move */
-    put(CAROM_SOLID, 1);
-    put(8, 1);
-    put(8, 4);
-    put(FACES, 4);
-    for (int i = 0; i < 3 * 8; i++) {
-        put((uint16_t)corners[i / 3][i % 3], 2);
-    }
-    for (int i = 0; i < 3 * FACES; i++) {
-        put(box_faces[i / 3][i % 3], 2);
-    }
-}
-
 /* Numbers that a body may have, in the order of the struct. */
 static void call_add(bool first)
 {
@@ -300,7 +284,7 @@ static void call_add(bool first)
                                  .overlap = CAROM_OVERLAP_PASS};
 
     if (first) {
-        put_mesh();
+        put_mesh(&cube);
     }
     put_call(CAROM_CALL_body_add, 0);
     put_n(0); /* the mesh */

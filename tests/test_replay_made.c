@@ -15,6 +15,7 @@
 #define ROOM  100000
 
 static const int16_t corners[8][3] = BOX_CORNERS(128, 128, 128); /* a side and a volume of 1 */
+static const struct carom_mesh_raw cube = {corners, box_faces, 8, FACES, 8, CAROM_SOLID};
 
 static _Alignas(8) uint8_t room[ROOM];
 static struct carom_replay player;
@@ -32,22 +33,6 @@ static void put_header(void)
     write_file(NULL, "CRPL", 4);
     put(1, 1); /* version */
     put(0, 2); /* no stages, no note */
-}
-
-static void put_mesh(void)
-{
-    put(0x3d, 1);
-    put(0, 1); /* it does not move */
-    put(CAROM_SOLID, 1);
-    put(8, 1);
-    put(8, 4);
-    put(FACES, 4);
-    for (int i = 0; i < 3 * 8; i++) {
-        put((uint16_t)corners[i / 3][i % 3], 2);
-    }
-    for (int i = 0; i < 3 * FACES; i++) {
-        put(box_faces[i / 3][i % 3], 2);
-    }
 }
 
 static void put_world(void)
@@ -141,7 +126,7 @@ static void test_unknown(void)
 static void put_begin(void)
 {
     put_header();
-    put_mesh();
+    put_mesh(&cube);
     put_world();
     put_body(1);
     put_gravity();
@@ -201,7 +186,7 @@ static void test_materials(void)
 
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         put_header();
-        put_mesh();
+        put_mesh(&cube);
         put_world();
         put_body(1);
         put_materials(cases[i].body, cases[i].faces, cases[i].count);
@@ -219,7 +204,7 @@ static void test_truth(void)
 {
     for (int still = -1; still <= 3; still++) {
         put_header();
-        put_mesh();
+        put_mesh(&cube);
         put_world();
         put_body(still);
         put_gravity();
@@ -235,7 +220,7 @@ static void test_truth(void)
 static void test_surface(void)
 {
     put_header();
-    put_mesh();
+    put_mesh(&cube);
     put_world();
     put_body(1);
     put(CAROM_CALL_surface_move, 1);
@@ -256,7 +241,7 @@ static void test_surface_again(void)
 
     for (int more = 0; more < 2; more++) {
         put_header();
-        put_mesh();
+        put_mesh(&cube);
         put_world();
         put_body(1);
         for (int n = 0; n < (more ? 9 : 1); n++) {
@@ -283,7 +268,7 @@ static void test_memory(void)
     size_t needed = 0;
 
     put_header();
-    put_mesh();
+    put_mesh(&cube);
     put_world();
     put_body(1);
     put_materials(0, FACES, 2);

@@ -2,8 +2,8 @@
 /*
  * Where a thing stands in its pool means nothing. One world has bodies with joints, materials, sensors and more, and random calls;
  * the other has the same, and before them a group far away, which takes the first places of each pool. The bodies of both move alike
- * to the bit, their events come in the same order, and queries find the same. So do worlds of which
- * one gets calls that are refused, or goes on by a step and back before each step.
+ * to the bit, their events come in the same order, and queries find the same. So do two worlds of which one gets calls that are refused,
+ * or goes on by a step and back before each step.
  */
 #include <string.h>
 
@@ -25,7 +25,7 @@
 #define Q40(n) ((int64_t)(n) * ((int64_t)1 << 30))
 
 enum { PLATE, CUBE, BAR, MESHES };
-/* What the bodies of both worlds are. Another one is first in each run. */
+/* The parts of both worlds, a body each. Another one is first in each run. */
 enum { FIRST, JOINED, HANGING, GROUND, PUSHER, SENSOR, ONE_WAY, PASSING, LAST, BODIES };
 enum { FAR_GROUND, FAR_A, FAR_B, FAR_SENSOR, FAR_PUSHER, BEFORE };
 #define FAR_X 3000000

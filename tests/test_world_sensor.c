@@ -149,22 +149,29 @@ static void test_unnoticed(void)
     CHECK_MORE(seen, 5);
 }
 
+/* A world with a box that falls asleep on a floor, number 0. Returns its number. */
+static int add_sleeper(struct carom_world **w)
+{
+    struct carom_body_def def = boxes_def(FLOOR, 0, 0, -256);
+    int box;
+
+    begin();
+    *w = boxes_world(0);
+    def.stationary = true;
+    boxes_add(*w, &def);
+    def = boxes_def(BOX, 0, 0, 151);
+    box = boxes_add(*w, &def);
+    boxes_step(*w, 60);
+    CHECK(boxes_state(*w, box).asleep);
+    return box;
+}
+
 /* A new sensor finds a sleeping body, a removed one loses it, and the body sleeps on. */
 static void test_asleep(void)
 {
     struct carom_world *w;
-    struct carom_body_def def;
-    int box, sensor, size;
+    int box = add_sleeper(&w), sensor, size;
 
-    begin();
-    w = boxes_world(0);
-    def = boxes_def(FLOOR, 0, 0, -256);
-    def.stationary = true;
-    boxes_add(w, &def);
-    def = boxes_def(BOX, 0, 0, 151);
-    box = boxes_add(w, &def);
-    boxes_step(w, 60);
-    CHECK(boxes_state(w, box).asleep);
     sensor = add_sensor(w, ZONE, 0, 0, 0, true);
     CHECK(boxes_state(w, box).asleep);
     boxes_step(w, 1);
@@ -232,18 +239,8 @@ static void test_put_around(void)
 {
     for (int load = 0; load < 3; load++) {
         struct carom_world *w;
-        struct carom_body_def def;
-        int sensor, box, bytes;
+        int box = add_sleeper(&w), sensor, bytes;
 
-        begin();
-        w = boxes_world(0);
-        def = boxes_def(FLOOR, 0, 0, -256);
-        def.stationary = true;
-        boxes_add(w, &def);
-        def = boxes_def(BOX, 0, 0, 160);
-        box = boxes_add(w, &def);
-        boxes_step(w, 60);
-        CHECK(boxes_state(w, box).asleep);
         sensor = add_sensor(w, ZONE, 0, 0, 600, true);
         CHECK(boxes_state(w, box).asleep);
         bytes = carom_snapshot_save(w, saved, sizeof saved);

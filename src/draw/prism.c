@@ -2,7 +2,10 @@
 /* The prisms behind a solid's outline, and the parts of polygons inside them. */
 #include "prism.h"
 
-/* Set the inward normal of the plane through an edge and the light. Returns false for an edge along the light. */
+/*
+ * Set the inward normal of the plane through an edge and the light. Returns false for an edge along
+ * the light.
+ */
 static bool side_through(carom_v3_q30 *side, const int32_t sun[3], const int32_t a[3],
                          const int32_t b[3])
 {

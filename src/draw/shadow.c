@@ -95,7 +95,10 @@ static void list_plane(const struct receiver *r, struct lit *lit)
     }
 }
 
-/* Rotate a triangle's corners on the picture so that the top one is first, as in a face. The polygon to cut may begin anywhere. */
+/*
+ * Rotate a triangle's corners on the picture so that the top one is first, as in a face. The polygon
+ * to cut may begin anywhere.
+ */
 static void top_first(struct lit *lit)
 {
     const struct lit was = *lit;

@@ -50,6 +50,23 @@ static inline void put_zeros(int count)
     }
 }
 
+/* Append a mesh that does not move. */
+static inline void put_mesh(const struct carom_mesh_raw *raw)
+{
+    put(0x3d, 1);
+    put(0, 1);
+    put(raw->kind, 1);
+    put(raw->quantum_bits, 1);
+    put(raw->vertex_count, 4);
+    put(raw->face_count, 4);
+    for (uint32_t i = 0; i < 3 * raw->vertex_count; i++) {
+        put((uint16_t)raw->vertices[i / 3][i % 3], 2);
+    }
+    for (uint32_t i = 0; i < 3 * raw->face_count; i++) {
+        put(raw->faces[i / 3][i % 3], 2);
+    }
+}
+
 /* Play so many bytes of the file in so much memory; returns the result it ends with. */
 static inline int play_file(struct carom_replay *player, size_t bytes, void *room, size_t memory)
 {
