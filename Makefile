@@ -287,10 +287,10 @@ fuzz: ## libFuzzer over calls, questions, pictures, snapshots, recordings, meshe
 	    $(if $(TARGETS),--targets $(TARGETS)) $(if $(RECORD),--record)
 
 RANDOM ?= 20000
-bytes: ## change each byte of snapshots, recordings and blobs, and RANDOM=20000 numbers of each, check sums corrected, to docs/evidence.md; SEED=
+bytes: ## change each byte of snapshots, recordings and blobs, and RANDOM=20000 numbers of each, check sums corrected, to docs/evidence.md; SEED= WORLDS=0,1
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_bytes.elf build/host/host_replay.elf
-	@tools/bytes.py --random $(RANDOM) --seed $(SEED) $(if $(filter 1,$(SEED)),,--only-random)
+	@tools/bytes.py --random $(RANDOM) --seed $(SEED) $(if $(filter 1,$(SEED)),,--only-random) $(if $(WORLDS),--worlds $(WORLDS))
 
 snapshots: ## save and load after each of FRAMES=600 frames of the matrix's scenes, to docs/evidence.md with RECORD=1; BIG=1: on m68k, too
 	@tools/need $(NEED_MESHES) $(NEED_HOST)

@@ -12,7 +12,7 @@
 #ifdef TEST_LONG
 enum { FRAMES = 240 };
 #else
-enum { FRAMES = 24 };
+enum { FRAMES = 10 };
 #endif
 enum { EACH = 24, SOME = 5 }; /* so many frames are all drawn, and then every fifth */
 enum { WIDTH = 109, HEIGHT = 80, BODIES = 33 };

@@ -9,7 +9,7 @@
 #ifdef TEST_LONG
 #define LUMPS 300
 #else
-#define LUMPS 3
+#define LUMPS 1
 #endif
 
 enum { ROUND = 7, RINGS = 4, VERTICES = ROUND * RINGS + 2, FACES = 2 * ROUND * RINGS, WIDE = 96 };

@@ -15,6 +15,17 @@
 #define FRAMES 70 /* more than 64: a state is written in full */
 #define FPS    60
 
+#ifdef TEST_LONG
+enum { APART = 37, BETWEEN = 4 };
+#else
+enum { APART = 379, BETWEEN = 20 };
+#endif
+/*
+ * Every byte of the first calls is changed, and every one so far APART of the steps; recordings begin in the middle, so many frames
+ * BETWEEN two.
+ */
+#define NEXT(at) ((at) < 400 ? 1 : APART)
+
 static const int16_t corners[][3] = {{99, 99, 99}, {99, -99, -99}, {-99, 99, -99}, {-99, -99, 99}};
 static const uint16_t sides[][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
 static const int16_t far_corners[][3] = {{-9999, -9999, 0}, {9999, -9999, 0}, {0, 9999, 0}};
@@ -203,7 +214,7 @@ static void test_format(void)
 static void test_cut(void)
 {
     record_all(true, 1);
-    for (size_t bytes = 0; bytes < file_bytes; bytes += bytes < 400 ? 1 : 37) {
+    for (size_t bytes = 0; bytes < file_bytes; bytes += NEXT(bytes)) {
         const int result = play(bytes);
 
         CHECK(result < 0 || result == CAROM_REPLAY_CUT);
@@ -215,7 +226,7 @@ static void test_cut(void)
 static void test_altered(void)
 {
     record_all(true, 1);
-    for (size_t at = 0; at < file_bytes; at += at < 400 ? 1 : 37) {
+    for (size_t at = 0; at < file_bytes; at += NEXT(at)) {
         const uint8_t flip = (uint8_t)(1 << at % 8);
         int result;
 
@@ -263,7 +274,7 @@ static void test_middle(void)
     const struct carom_body_def again = {
         &meshes[1], .position = {{CAROM_POSITION_MM(-1500), 0, CAROM_POSITION_MM(900)}}};
 
-    for (int from = 2; from <= FRAMES; from += 4) {
+    for (int from = 2; from <= FRAMES; from += BETWEEN) {
         struct test_random random = {1};
         struct carom_world *world;
         int id;
@@ -277,7 +288,7 @@ static void test_middle(void)
             if (frame == from) {
                 file_bytes = 0;
                 CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_ERR_ARGUMENT);
-                CHECK_EQ(carom_record_begin(&record, write_file, NULL, from % 8 == 2, "middle"),
+                CHECK_EQ(carom_record_begin(&record, write_file, NULL, from % (2 * BETWEEN) == 2, "middle"),
                          CAROM_OK);
                 CHECK_EQ(carom_record_world(&record, world, mem, 16), CAROM_ERR_MEMORY);
                 CHECK_EQ(carom_record_world(&record, NULL, mem, sizeof mem), CAROM_ERR_NULL);

@@ -7,6 +7,7 @@ four kinds:
     more    more is better: a short form may not find less
     less    less is better: a short form may not find more
     sum     a count that each run adds to
+    most    the most of all runs
     fact    neither is better
 """
 import datetime
@@ -20,7 +21,7 @@ import results
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 KEPT, PAGE = os.path.join(ROOT, "tests", "evidence.csv"), os.path.join(ROOT, "docs", "evidence.md")
 COLUMNS = ["test", "figure", "value", "kind", "date", "commit"]
-KINDS = "more", "less", "sum", "fact"
+KINDS = "more", "less", "sum", "most", "fact"
 
 
 def commit():
@@ -57,7 +58,8 @@ def record(test, figures):
     rows = results.read(KEPT)
     former = {row["figure"]: number(row["value"]) for row in rows if row["test"] == test}
     now, at = datetime.date.today().isoformat(), commit()
-    values = {name: value + former.get(name, 0) if kind == "sum" else value for name, (value, kind) in figures.items()}
+    values = {name: value + former.get(name, 0) if kind == "sum" else max(value, former.get(name, value)) if kind == "most" else value
+              for name, (value, kind) in figures.items()}
     mine = [dict(zip(COLUMNS, (test, name, str(values[name]), kind, now, at))) for name, (_, kind) in figures.items()]
     rows = sorted([row for row in rows if row["test"] != test or row["figure"] not in figures] + mine, key=lambda row: row["test"])
     results.write(KEPT, ",".join(COLUMNS), [list(row.values()) for row in rows])
