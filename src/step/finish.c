@@ -27,6 +27,21 @@ bool step_in_range(const struct body *b, const struct body_state *s)
            world_in_range(b, s);
 }
 
+/* Turn a body to a rotation with its angular momentum: so its energy stays, whatever turned it. */
+static void turn_with(struct body_state *state, const carom_quat_q30 *rotation)
+{
+    carom_m3_q30 from, to;
+    int64_t own[3];
+
+    if (memcmp(&state->rotation, rotation, sizeof *rotation) != 0) {
+        fix_matrix(&from, &state->rotation);
+        fix_matrix(&to, rotation);
+        fix_rotate_back(own, &from, state->angular.c);
+        fix_rotate(state->angular.c, &to, own);
+        state->rotation = *rotation;
+    }
+}
+
 bool step_retire(struct step *s, uint32_t i)
 {
     struct carom_world *w = s->w;
@@ -38,7 +53,7 @@ bool step_retire(struct step *s, uint32_t i)
     last = world_now(w)->bodies[i];
     /* another body may be by now where it came from */
     last.position = state->position;
-    last.rotation = state->rotation;
+    turn_with(&last, &state->rotation);
     *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
     state->out = 1;
     w->regions_stale = true;
