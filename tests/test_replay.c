@@ -288,7 +288,8 @@ static void test_middle(void)
             if (frame == from) {
                 file_bytes = 0;
                 CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_ERR_ARGUMENT);
-                CHECK_EQ(carom_record_begin(&record, write_file, NULL, from % (2 * BETWEEN) == 2, "middle"),
+                CHECK_EQ(carom_record_begin(&record, write_file, NULL, from % (2 * BETWEEN) == 2,
+                                            "middle"),
                          CAROM_OK);
                 CHECK_EQ(carom_record_world(&record, world, mem, 16), CAROM_ERR_MEMORY);
                 CHECK_EQ(carom_record_world(&record, NULL, mem, sizeof mem), CAROM_ERR_NULL);
