@@ -3,7 +3,7 @@
 """Figures of the tests that search for faults: tests/evidence.csv keeps them, docs/evidence.md shows them.
 
 The command of a test calls record() in its long form, and ratchet() in the short form that CI runs. A figure is one of
-four kinds:
+five kinds:
     more    more is better: a short form may not find less
     less    less is better: a short form may not find more
     sum     a count that each run adds to
