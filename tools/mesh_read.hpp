@@ -167,6 +167,10 @@ inline void check_ply_is_whole(const std::string &path)
     PlyFormat format = PlyFormat::text;
 
     for (const PlyElement &element : read_ply_header(file, format)) {
+        if (element.count > 0 && element.properties.empty()) {
+            /* it takes no bytes, so the end of the file would not stop its count, here or in assimp */
+            throw Refusal("the header has an element without properties: export the mesh again");
+        }
         for (uint64_t i = 0; i < element.count; i++) {
             for (const PlyProperty &property : element.properties) {
                 uint64_t items = 1;
