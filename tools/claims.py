@@ -46,13 +46,14 @@ def number(text):
 
 def sentences():
     """The sentences of README.md."""
-    worlds = {key: int(text) for key, text in table_of("docs/soak.md", "soak")[0].items() if text.isdigit()}
+    counted = {row["figure"]: row["measured"] if row["measured"] != "0" else "none" for row in table_of("docs/evidence.md", "soak")}
     fixtures = [row["does"] for row in table_of("docs/fixtures.md", "fixtures")]
     builds, scenes = re.match(r"(\d+) builds, (\d+) scenes, one hash each", lines_of("docs/matrix.md", "matrix")[0]).groups()
-    yield ("[docs/soak.md](docs/soak.md) has %s random worlds: faces crossed in %s of them, and a body that had to move stood still in %s. "
+    yield ("[docs/evidence.md](docs/evidence.md) counts %s random worlds: faces crossed in %s of them, and a body that had to move "
+           "stood still in %s. "
            "[docs/fixtures.md](docs/fixtures.md) has %d published and special scenes, and %d of them do what they should. "
            "[docs/matrix.md](docs/matrix.md) has %s scenes, which ended in one hash each in %s builds." % (
-               f"{worlds['worlds']:,}", worlds["crossings"] or "none", worlds["stand still"] or "none",
+               counted["bodies: worlds"], counted["bodies: crosses"], counted["bodies: stands still"],
                len(fixtures), fixtures.count("yes"), scenes, builds))
 
 

@@ -222,6 +222,7 @@ def main():
     write_csv(rows)
     if arguments.record:
         keep_counts(by_kind)
+        claims.write()
     if arguments.docs:
         document(by_kind)
     # frames cut short are counted over all worlds: one world alone is no failure
