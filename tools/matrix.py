@@ -32,7 +32,7 @@ OUT = "out/matrix.csv"
 DOCS = "docs/matrix.md"
 WORK = "build/matrix"
 TIMEOUT = 900  # seconds a command
-FRAMES = 2000, 600  # frames of a scene; of a scene in the short form, in which most have come to rest then
+FRAMES = 2000, 600  # frames of a scene; of a scene in the short form: it goes on from the snapshots for 100
 AT = 500  # the frame whose snapshot is handed on
 CROSSED = ["pile", "sheet", "door", "walker"]  # scenes that another build continues
 

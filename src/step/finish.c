@@ -31,13 +31,13 @@ bool step_in_range(const struct body *b, const struct body_state *s)
 static void turn_with(struct body_state *state, const carom_quat_q30 *rotation)
 {
     carom_m3_q30 from, to;
-    int64_t own[3];
+    int64_t own_q40[3];
 
     if (memcmp(&state->rotation, rotation, sizeof *rotation) != 0) {
         fix_matrix(&from, &state->rotation);
         fix_matrix(&to, rotation);
-        fix_rotate_back(own, &from, state->angular.c);
-        fix_rotate(state->angular.c, &to, own);
+        fix_rotate_back(own_q40, &from, state->angular.c);
+        fix_rotate(state->angular.c, &to, own_q40);
         state->rotation = *rotation;
     }
 }

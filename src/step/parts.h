@@ -311,8 +311,8 @@ void step_drop_warm(struct step *s);
 
 /*
  * Freeze a body that left the range of the formats. It stays where it is, or in the pose in which
- * it began the frame if that place is out of range. It has the energy with which it began the frame. True if it was
- * frozen.
+ * it began the frame if that place is out of range. It has the energy with which it began the
+ * frame. True if it was frozen.
  */
 bool step_retire(struct step *s, uint32_t i);
 /* The same as world_in_range, faster for most bodies. */
