@@ -154,7 +154,8 @@ static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
  */
 static int64_t region_time(const struct step *s, const struct body *b, int32_t slice_q30, bool free)
 {
-    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
+    /* a path that is cut again may begin before the last event */
+    int32_t left_q30 = CAROM_ONE_Q30 - b->clock.from_q30;
     const int64_t *g = b->path.g.c;
     int64_t way_q22, turn_q30, most_q22, held = 1;
     int64_t frames = (g[0] | g[1] | g[2]) == 0 ? BODY_REGION_FRAMES : STEP_BENT_FRAMES;
@@ -186,6 +187,7 @@ static void begin_region(struct step *s, uint32_t i, int32_t slice_q30, bool fre
     int64_t time_q30 = region_time(s, b, slice_q30, free);
     int64_t room_q22 = room_for(s, b, time_q30 != slice_q30);
 
+    CAROM_ASSERT(time_q30 >= slice_q30); /* or candidates of the path's end would be missed */
     b->search.state = free ? BODY_REGION_FREE : BODY_REGION_MOVING;
     room_q22 = room_q22 < b->def.radius_q22 / STEP_ROOM_PARTS ? room_q22
                                                               : b->def.radius_q22 / STEP_ROOM_PARTS;
