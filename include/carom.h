@@ -546,7 +546,8 @@ struct carom_contact {
 };
 
 /**
- * Copy the contacts of the last solve of the step. After a surface was moved there are none until the next step.
+ * Copy the contacts of the last solve of the step. After a surface was moved there are none until the next step; a body that is
+ * removed takes its contacts along.
  *
  * @param[out] contacts  may be NULL if `max` is 0
  * @param max            how many to copy at most

@@ -10,7 +10,10 @@
 #include "world/world.h"
 
 #define BODIES 4
-#define CAPS   BODIES, 4, 8, 16, 8, 32, 0, 2, 0
+#define CAPS   BODIES, 4, 16, 48, 8, 32, 0, 2, 0
+
+/* bodies of test_contacts */
+enum { STAND, OTHER_STAND, BOX_OVER, OTHER_BOX };
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape box, floor_shape;
@@ -256,8 +259,51 @@ static void test_extras(void)
     }
 }
 
+/* Two boxes on a stationary one each. A removed body takes its contacts along, and no others. */
+static void test_contacts(void)
+{
+    struct carom_contact before[16], after[16];
+    const carom_v3_q40 down = {{0, 0, -((int64_t)1 << 32)}};
+    const int removed[] = {BOX_OVER, STAND};
+    int count, others;
+
+    for (int i = 0; i < 2; i++) {
+        setup();
+        CHECK_EQ(carom_world_set_gravity(world, &down), CAROM_OK);
+        CHECK_EQ(add(0), STAND);
+        CHECK_EQ(add(10), OTHER_STAND);
+        def.mass_q20 = 1 << 20;
+        def.position.c[2] = ((int64_t)1 << 32) + ((int64_t)1 << 21);
+        CHECK_EQ(add(0), BOX_OVER);
+        CHECK_EQ(add(10), OTHER_BOX);
+        for (int frame = 0; frame < 4; frame++) {
+            CHECK_EQ(carom_world_step(world), CAROM_OK);
+        }
+        count = carom_contacts(world, before, 16);
+        others = 0;
+        for (int n = 0; n < count; n++) {
+            if (before[n].a == OTHER_BOX) {
+                before[others++] = before[n];
+            }
+        }
+        CHECK_MORE(others, 0);
+        CHECK_MORE(count, others);
+        CHECK_EQ(carom_body_remove(world, removed[i]), CAROM_OK);
+        CHECK_EQ(carom_contacts(world, after, 16), others);
+        CHECK_EQ(memcmp(before, after, (size_t)others * sizeof *after), 0);
+        /* nor does the next body at its place find any */
+        CHECK_EQ(add(30), removed[i]);
+        CHECK_EQ(carom_contacts(world, after, 16), others);
+        CHECK_EQ(memcmp(before, after, (size_t)others * sizeof *after), 0);
+    }
+}
+
 const struct test tests_world_identity[] = {
-    {"world_identity/come_and_go", test_come_and_go}, {"world_identity/wraps", test_wraps},
-    {"world_identity/every_call", test_every_call},   {"world_identity/user", test_user},
-    {"world_identity/extras", test_extras},           {0},
+    {"world_identity/come_and_go", test_come_and_go},
+    {"world_identity/wraps", test_wraps},
+    {"world_identity/every_call", test_every_call},
+    {"world_identity/user", test_user},
+    {"world_identity/extras", test_extras},
+    {"world_identity/contacts", test_contacts},
+    {0},
 };

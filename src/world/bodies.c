@@ -188,6 +188,22 @@ void world_forget_impulses(struct carom_world *w, uint32_t body)
     s->warm_count = kept;
 }
 
+/* Drop the contacts of a body that is removed: they name it, and their points are those of its path. */
+static void drop_contacts(struct carom_world *w, uint32_t body)
+{
+    struct contact_list *list = &w->rest.list;
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        const struct pair *p = &w->pairs[list->contacts[i].key.pair];
+
+        if (p->a != body && p->b != body) {
+            list->contacts[kept++] = list->contacts[i];
+        }
+    }
+    list->pool->used = kept;
+}
+
 int carom_body_remove(struct carom_world *w, int body)
 {
     struct world_state *s;
@@ -213,6 +229,7 @@ int carom_body_remove(struct carom_world *w, int body)
         memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
     }
     world_forget_impulses(w, (uint32_t)body);
+    drop_contacts(w, (uint32_t)body);
     for (uint32_t i = 0; i < s->touching_count; i++) {
         if (s->touching[i].a != body && s->touching[i].b != body) {
             s->touching[kept++] = s->touching[i];
