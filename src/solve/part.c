@@ -39,6 +39,7 @@ bool rest_approaches(struct rest *r)
 void rest_part(struct rest *r)
 {
     struct rest_sweep sw = {.plastic = true,
+                            .parts = true,
                             .frictionless = true,
                             .calm = rest_up_to_two(r),
                             .residual = REST_RESIDUAL_IMPACT};

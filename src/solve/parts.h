@@ -21,6 +21,7 @@
 struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
     bool plastic; /* impacts end at V.N = 0: the plastic solution of the energy rule */
+    bool parts;   /* with plastic: but contacts that are nearly closed open */
     bool frictionless;
     bool calm;  /* without momentum each sweep takes energy away */
     bool exact; /* to the last place, and calm: an impact of one body or two */

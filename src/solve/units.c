@@ -13,9 +13,16 @@
 /* If velocities or impulses outgrow their bits the unit becomes this many bits larger. */
 #define LARGER_BITS 4
 
+/*
+ * The V.N that sweeps lead to. Sweeps that part bodies open a resting contact whose gap is all but gone: at V.N = 0, found again
+ * in many frames, roundings would close the rest of it.
+ */
 FIX_APART static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
-    return sw->plastic && (c->impact || c->work->target_q40 > 0) ? 0 : c->work->target_q40;
+    bool opens = sw->parts && !c->impact && c->gap_q22 < c->skin_q22 / REST_TOO_NEAR_DIVISOR;
+
+    return sw->plastic && !opens && (c->impact || c->work->target_q40 > 0) ? 0
+                                                                           : c->work->target_q40;
 }
 
 void rest_choose_unit(const struct rest *r, struct rest_sweep *sw)
