@@ -381,6 +381,8 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
 /* Displacement of the centre, and rotation, at t of the path. */
 carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30);
 carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30);
+/* out = q (1, u), normalised: q turned by Cayley(u) in the body's axes, |u| <= 0.31. */
+void body_turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3]);
 /* The axes of a rotation turned on by a Cayley vector in them, |u| <= 0.31. */
 void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r);
 /* Make the pose at t the new state, with the momentum that gravity gave until then. */

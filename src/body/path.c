@@ -2,8 +2,7 @@
 /* The path of a body over a slice: a parabola and a Cayley rotation. */
 #include "body.h"
 
-/* out = q (1, u), normalised: q turned by Cayley(u) in the body's axes. */
-static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3])
+void body_turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3])
 {
     const int32_t *v = &q->c[1];
 
@@ -241,7 +240,7 @@ void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r
 {
     carom_quat_q30 turned;
 
-    turn(&turned, q, u->c);
+    body_turn(&turned, q, u->c);
     fix_matrix(r, &turned);
 }
 
@@ -273,7 +272,7 @@ carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30)
         for (int k = 0; k < 3; k++) {
             u[k] = carom_mul_q30(path->u.c[k], t_q30);
         }
-        turn(&q, &path->q, u);
+        body_turn(&q, &path->q, u);
     }
     return q;
 }

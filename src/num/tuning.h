@@ -323,6 +323,8 @@
  * and solves see it as straight. In joint_measure.c.
  */
 #define STEP_JOINT_TURN_Q30 (CAROM_ONE_Q30 / 8)
+/* An island that spins faster does not go through a frame as one rigid body. Chosen: some 40 slices. */
+#define RIGID_SPIN_MAX_Q40 ((int64_t)16 << 40)
 /*
  * Momenta are multiplied by 7/8 to 9/8 to change energy by what is owed. Chosen; in step/energy.c.
  */

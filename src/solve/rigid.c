@@ -10,6 +10,9 @@
 #include "rigid.h"
 #include "rows.h"
 
+/* Rounds of the midpoint rule, each of which gains two bits or more. */
+#define RIGID_ROUNDS 20
+
 uint32_t rest_island_next(const struct rest *r, uint32_t i)
 {
     do {
@@ -167,27 +170,43 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
     }
 }
 
+/* The island's inertia about its centre as rows of up to 30 bits, and how far it was shifted down. */
+struct inertia {
+    int32_t m[6];
+    int down;
+};
+
+static struct inertia sum_inertia(const struct rest *r, const struct rest_rigid *rigid)
+{
+    struct inertia inertia;
+    int64_t sum_q30[6] = {0};
+    uint64_t all = 0;
+
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        add_inertia(r, rigid, i, sum_q30);
+    }
+    for (int n = 0; n < 6; n++) {
+        all |= (uint64_t)carom_abs(sum_q30[n]);
+    }
+    inertia.down = fix_bits(all) - 30;
+    for (int n = 0; n < 6; n++) {
+        inertia.m[n] = (int32_t)fix_round_shift(sum_q30[n], -inertia.down);
+    }
+    return inertia;
+}
+
 /* Find the spin: inertia times spin is the angular momentum about the centre. */
-static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
+static bool find_spin(const struct rest *r, struct rest_rigid *rigid, const struct inertia *inertia,
                       const struct fix_wide angular_q72[3])
 {
     struct gauss *g = r->gauss;
     int32_t rows[3][GAUSS_MAX + 1];
-    int64_t inertia_q30[6] = {0};
-    uint64_t all = 0;
-    int down, up, bits = fix_wide_bits3(angular_q72);
+    int up, bits = fix_wide_bits3(angular_q72);
 
-    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
-        add_inertia(r, rigid, i, inertia_q30);
-    }
-    for (int n = 0; n < 6; n++) {
-        all |= (uint64_t)carom_abs(inertia_q30[n]);
-    }
-    down = fix_bits(all) - 30;
     bits = bits > 30 ? bits - 30 : 0;
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n < 3; n++) {
-            g->a[m][n] = (int32_t)fix_round_shift(inertia_q30[fix_sym3_at[m][n]], -down);
+            g->a[m][n] = inertia->m[fix_sym3_at[m][n]];
         }
         g->a[m][3] = (int32_t)fix_wide_shift(&angular_q72[m], bits);
     }
@@ -196,7 +215,7 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
         return false;
     }
     /* q72 over q30, in units of mass and squared length */
-    up = bits - 72 - (down - 30) - (30 - rigid->mass_e) - 2 * (rigid->length_bits - 32);
+    up = bits - 72 - (inertia->down - 30) - (30 - rigid->mass_e) - 2 * (rigid->length_bits - 32);
     for (int k = 0; k < 3; k++) {
         rigid->spin.c[k] = fix_round_shift(g->x_q40[k], up);
     }
@@ -206,13 +225,15 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
 /* Find the rigid motion that has these momenta. */
 static bool find_motion(const struct rest *r, struct rest_rigid *rigid, const struct momenta *of)
 {
+    struct inertia inertia = sum_inertia(r, rigid);
+
     for (int k = 0; k < 3; k++) {
         struct fix_scaled v = fix_wide_over(&of->linear_q40[k], rigid->mass_q30);
 
         v.e -= rigid->mass_e;
         rigid->velocity.c[k] = fix_mul_scaled(1, v);
     }
-    return find_spin(r, rigid, of->angular_q72);
+    return find_spin(r, rigid, &inertia, of->angular_q72);
 }
 
 bool rest_rigid_motion(const struct rest *r, uint32_t island, struct rest_rigid *rigid)
@@ -308,21 +329,20 @@ static void add_motion(struct rest *r, const struct rest_rigid *rigid)
     }
 }
 
-/* rest_unite for an island in the air. */
-static void unite_free(struct rest *r, struct rest_rigid *rigid)
+/* Give an island the rigid motion that has these momenta. */
+static void set_momenta(struct rest *r, struct rest_rigid *rigid, const struct momenta *all)
 {
-    struct momenta before = sum_momenta(r, rigid), rest;
+    struct momenta rest;
 
     rest_scale_grounded(r, rigid->first, 0);
-    add_motion(r, rigid);
     /* the motion has 30 bits, and so has each correction of it */
-    for (int round = 0; round < 2; round++) {
-        rest = lost(r, rigid, &before);
+    for (int round = 0; round < 3; round++) {
+        rest = lost(r, rigid, all);
         if (find_motion(r, rigid, &rest)) {
             add_motion(r, rigid);
         }
     }
-    make_up(r, rigid, &before);
+    make_up(r, rigid, all);
 }
 
 void rest_unite(struct rest *r, uint32_t island, bool grounded)
@@ -332,6 +352,126 @@ void rest_unite(struct rest *r, uint32_t island, bool grounded)
     if (grounded) {
         rest_scale_grounded(r, island, 0);
     } else if (rest_rigid_motion(r, island, &rigid)) {
-        unite_free(r, &rigid);
+        struct momenta all = sum_momenta(r, &rigid);
+
+        set_momenta(r, &rigid, &all);
     }
+}
+
+/* ----------------------------------------------------------------- a whole frame */
+
+/* M = L + M x u. */
+static void add_turn(int64_t m[3], const int64_t l[3], const int32_t u_q30[3])
+{
+    int64_t next[3];
+
+    for (int k = 0; k < 3; k++) {
+        int i = fix_next(k), j = fix_next(i);
+
+        next[k] = l[k] + fix_mul_q30(m[i], u_q30[j]) - fix_mul_q30(m[j], u_q30[i]);
+    }
+    memcpy(m, next, sizeof next);
+}
+
+/*
+ * The Cayley vector of a turn over tau in the world's axes, by the implicit midpoint rule of body/path.c: u is half of tau times
+ * the spin that M has, and M = L + M x u. It keeps the energy. Zero if the spin cannot be found.
+ */
+static void cayley(const struct rest *r, struct rest_rigid *rigid, const struct inertia *inertia,
+                   const struct momenta *all, int32_t tau_q30, int32_t u_q30[3])
+{
+    int bits = fix_wide_bits3(all->angular_q72), change = 1;
+    int64_t l[3], m[3];
+
+    bits = bits > 60 ? bits - 60 : 0;
+    for (int k = 0; k < 3; k++) {
+        l[k] = m[k] = fix_wide_shift(&all->angular_q72[k], bits);
+        u_q30[k] = 0;
+    }
+    for (int round = 0; round < RIGID_ROUNDS && change != 0; round++) {
+        struct fix_wide of_m[3] = {{0, 0}, {0, 0}, {0, 0}};
+
+        for (int k = 0; k < 3; k++) {
+            fix_wide_add_product(&of_m[k], m[k], 1);
+            fix_wide_shift_up(&of_m[k], bits);
+        }
+        if (!find_spin(r, rigid, inertia, of_m)) {
+            return;
+        }
+        change = 0;
+        for (int k = 0; k < 3; k++) {
+            int32_t next_q30 = (int32_t)fix_mul(rigid->spin.c[k], tau_q30, 41);
+
+            change |= next_q30 ^ u_q30[k];
+            u_q30[k] = next_q30;
+        }
+        add_turn(m, l, u_q30);
+    }
+}
+
+/* Turn the island about its centre. */
+static void turn(struct rest *r, const struct rest_rigid *rigid, const int32_t u_q30[3])
+{
+    const carom_quat_q30 none = {{CAROM_ONE_Q30, 0, 0, 0}};
+    carom_quat_q30 by;
+    carom_m3_q30 axes;
+
+    body_turn(&by, &none, u_q30);
+    fix_matrix(&axes, &by);
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        struct body_state *state = &r->states[i];
+        carom_quat_q30 before = state->rotation;
+        carom_m3_q30 own;
+        int64_t arm[3];
+        int32_t u[3];
+
+        for (int k = 0; k < 3; k++) {
+            arm[k] = state->position.c[k] - rigid->centre.c[k];
+        }
+        fix_rotate(arm, &axes, arm);
+        for (int k = 0; k < 3; k++) {
+            state->position.c[k] = rigid->centre.c[k] + arm[k];
+        }
+        fix_matrix(&own, &before);
+        carom_rotate_back(u, &own, u_q30);
+        body_turn(&state->rotation, &before, u);
+    }
+}
+
+/* The part of a frame, at most left_q30, in which the spin turns by BODY_TURN_MAX_Q30. */
+static int32_t slice_of(const struct rest_rigid *rigid, int32_t left_q30)
+{
+    int64_t rate_q40 = fix_length(rigid->spin.c);
+
+    return fix_mul_q30(rate_q40, left_q30) <= (int64_t)BODY_TURN_MAX_Q30 << 10
+               ? left_q30
+               : (int32_t)(((int64_t)BODY_TURN_MAX_Q30 << 30) / (rate_q40 >> 10));
+}
+
+void rest_go_rigid(struct rest *r, struct rest_rigid *rigid, const carom_v3_q40 *pull)
+{
+    struct momenta all = sum_momenta(r, rigid);
+    int32_t left_q30 = CAROM_ONE_Q30;
+
+    while (left_q30 > 0) {
+        struct inertia inertia = sum_inertia(r, rigid);
+        int32_t slice_q30, u_q30[3];
+
+        (void)find_spin(r, rigid, &inertia, all.angular_q72);
+        slice_q30 = slice_of(rigid, left_q30);
+        cayley(r, rigid, &inertia, &all, slice_q30, u_q30);
+        turn(r, rigid, u_q30);
+        left_q30 -= slice_q30;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t way_q32 = carom_round(rigid->velocity.c[k] + pull->c[k] / 2, 8);
+
+        rigid->centre.c[k] += way_q32;
+        for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+            r->states[i].position.c[k] += way_q32;
+            fix_wide_add_product(&all.linear_q40[k],
+                                 fix_mul_scaled(pull->c[k], r->bodies[i].def.mass), 1);
+        }
+    }
+    set_momenta(r, rigid, &all);
 }

@@ -229,8 +229,11 @@ static void limit_island(struct step *s, uint32_t first)
         }
     } else if (rest_rigid_motion(&s->w->rest, first, &rigid)) {
         struct fix_wide beside = beside2(s, &rigid, &sum.kinetic);
+        int32_t factor = factor_q30(&beside, &sum.excess);
 
-        rest_scale_free(&s->w->rest, &rigid, factor_q30(&beside, &sum.excess));
+        if (factor > 0 || !step_go_as_one(s, first)) {
+            rest_scale_free(&s->w->rest, &rigid, factor);
+        }
     }
 }
 

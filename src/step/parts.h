@@ -27,6 +27,7 @@
  *   ask       the caller's say on contacts
  *   answer    a hit: its island, the contacts, the solve, and the last resort
  *   energy    the energy rule over the frame
+ *   as_one    an island that goes through a frame as one rigid body
  *   noted     the list of interfering faces
  *   finish    bodies that leave the world, events, statistics
  *   connect   joints in a step; joint_add, joint_measure and joint_led go with it
@@ -271,6 +272,11 @@ int step_note_touching(struct step *s, const struct pair *p);
  * what it owes. Here an island is the bodies that touching in this step or joints connect.
  */
 void step_limit_energy(struct step *s);
+/*
+ * Undo the frame for an island in the air and move it as one rigid body. It then has no more energy than before. False, and
+ * nothing changes, if anything but one acceleration acted on it, if it turns too fast, or if another body is near.
+ */
+bool step_go_as_one(struct step *s, uint32_t first);
 
 /* ---------------------------------------------------------------- kinematic bodies */
 
