@@ -377,8 +377,9 @@ static void add_turn(int64_t m[3], const int64_t l[3], const int32_t u_q30[3])
  * The Cayley vector of a turn over tau in the world's axes, by the implicit midpoint rule of body/path.c: u is half of tau times
  * the spin that M has, and M = L + M x u. It keeps the energy. Zero if the spin cannot be found.
  */
-static void cayley(const struct rest *r, struct rest_rigid *rigid, const struct inertia *inertia,
-                   const struct momenta *all, int32_t tau_q30, int32_t u_q30[3])
+static FIX_OWN_FRAME void cayley(const struct rest *r, struct rest_rigid *rigid,
+                                 const struct inertia *inertia, const struct momenta *all,
+                                 int32_t tau_q30, int32_t u_q30[3])
 {
     int bits = fix_wide_bits3(all->angular_q72), change = 1;
     int64_t l[3], m[3];
@@ -410,7 +411,8 @@ static void cayley(const struct rest *r, struct rest_rigid *rigid, const struct 
 }
 
 /* Turn the island about its centre. */
-static void turn(struct rest *r, const struct rest_rigid *rigid, const int32_t u_q30[3])
+static FIX_OWN_FRAME void turn(struct rest *r, const struct rest_rigid *rigid,
+                               const int32_t u_q30[3])
 {
     const carom_quat_q30 none = {{CAROM_ONE_Q30, 0, 0, 0}};
     carom_quat_q30 by;

@@ -143,21 +143,28 @@ static bool is_clear(const struct step *s, const struct rest_rigid *rigid)
     return true;
 }
 
-bool step_go_as_one(struct step *s, uint32_t first)
+/* Find the rigid motion that an island had when the frame began. False if it cannot go through the frame with it. */
+static FIX_OWN_FRAME bool may_go(struct step *s, uint32_t first, struct rest_rigid *rigid)
 {
     struct carom_world *w = s->w;
-    const carom_v3_q40 pull = w->bodies[first].def.acceleration;
-    struct rest_rigid rigid;
     bool found;
 
     if (!fall_alike(s, first)) {
         return false;
     }
     w->rest.states = w->now->bodies;
-    found = rest_rigid_motion(&w->rest, first, &rigid);
+    found = rest_rigid_motion(&w->rest, first, rigid);
     w->rest.states = s->next->bodies;
-    if (!found || fix_length_bound(rigid.spin.c) > RIGID_SPIN_MAX_Q40 || !is_clear(s, &rigid)) {
-        return false;
+    return found && fix_length_bound(rigid->spin.c) <= RIGID_SPIN_MAX_Q40 && is_clear(s, rigid);
+}
+
+void step_go_as_one(struct step *s, uint32_t first)
+{
+    struct carom_world *w = s->w;
+    struct rest_rigid rigid;
+
+    if (!may_go(s, first, &rigid)) {
+        return;
     }
     for (uint32_t i = first; i != ISLAND_END; i = w->bodies[i].island.next) {
         struct body_state *state = &s->next->bodies[i];
@@ -167,8 +174,7 @@ bool step_go_as_one(struct step *s, uint32_t first)
         state->momentum = before(s, i)->momentum;
         state->angular = before(s, i)->angular;
     }
-    rest_go_rigid(&w->rest, &rigid, &pull);
+    rest_go_rigid(&w->rest, &rigid, &w->bodies[first].def.acceleration);
     w->stats.calmed++;
     w->regions_stale = true; /* its path did not stay in its regions */
-    return true;
 }

@@ -207,7 +207,10 @@ static bool is_pushed(const struct step *s, uint32_t first)
     return s->w->joint_steps && s->w->joint_steps->led_by(s, first, ISLAND_END) != ISLAND_END;
 }
 
-static void limit_island(struct step *s, uint32_t first)
+/*
+ * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone has more energy than it had.
+ */
+static bool limit_island(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
     struct fix_wide over = sum.excess, slack = fix_wide_down(&sum.kinetic, SLACK_BITS);
@@ -215,7 +218,7 @@ static void limit_island(struct step *s, uint32_t first)
 
     fix_wide_subtract(&over, &slack);
     if (fix_wide_sign(&over) <= 0) {
-        return;
+        return false;
     }
     if (s->w->bodies[first].clock.grounded) {
         int32_t factor = factor_q30(&sum.kinetic, &sum.excess);
@@ -231,10 +234,10 @@ static void limit_island(struct step *s, uint32_t first)
         struct fix_wide beside = beside2(s, &rigid, &sum.kinetic);
         int32_t factor = factor_q30(&beside, &sum.excess);
 
-        if (factor > 0 || !step_go_as_one(s, first)) {
-            rest_scale_free(&s->w->rest, &rigid, factor);
-        }
+        rest_scale_free(&s->w->rest, &rigid, factor);
+        return factor == 0;
     }
+    return false;
 }
 
 /* True if an energy must grow by more than STEP_CONSERVE_MOST_Q30 gives: (9 / 8)^2 - 1 of it. */
@@ -331,31 +334,35 @@ static void give_back_gravity(struct step *s, uint32_t first)
 }
 
 /*
- * Limit an island that touched something. `surely`: skip the cheap test whether it may have gained.
+ * Limit an island that touched something. `surely`: skip the cheap test whether it may have gained. True as limit_island is.
  */
-static void limit_touched(struct step *s, uint32_t first, bool surely)
+static bool limit_touched(struct step *s, uint32_t first, bool surely)
 {
     if (s->cut_short && !s->w->bodies[first].clock.grounded) {
         give_back_gravity(s, first);
     }
-    if (surely || may_gain(s, first)) {
-        limit_island(s, first);
-    }
+    return (surely || may_gain(s, first)) && limit_island(s, first);
 }
 
-/* Limit an island with joints. False if it has none. */
-static bool limit_joined(struct step *s, uint32_t first)
+/* The rule of an island: joints alone conserve, contact may not add. */
+static void limit(struct step *s, uint32_t first)
 {
-    struct body *b = &s->w->bodies[first];
-    struct fix_wide *owed = b->def.mesh ? s->w->joint_steps->owed2(s, first) : NULL;
+    const struct body *b = &s->w->bodies[first];
+    struct fix_wide *owed =
+        s->w->joint_steps && b->def.mesh ? s->w->joint_steps->owed2(s, first) : NULL;
 
-    if (owed && b->clock.touched) {
-        limit_touched(s, first, true);
-        *owed = (struct fix_wide){0, 0};
-    } else if (owed) {
-        conserve_island(s, first, owed);
+    if (!b->clock.touched) {
+        if (owed) {
+            conserve_island(s, first, owed);
+        }
+        return;
     }
-    return owed != NULL;
+    if (limit_touched(s, first, owed != NULL)) {
+        step_go_as_one(s, first);
+    }
+    if (owed) {
+        *owed = (struct fix_wide){0, 0};
+    }
 }
 
 void step_limit_energy(struct step *s)
@@ -385,9 +392,8 @@ void step_limit_energy(struct step *s)
         w->bodies[w->bodies[i].island.lowest].clock.grounded |= w->bodies[i].clock.grounded;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].island.lowest == i && !(w->joint_steps && limit_joined(s, i)) &&
-            w->bodies[i].clock.touched) {
-            limit_touched(s, i, false);
+        if (w->bodies[i].island.lowest == i) {
+            limit(s, i);
         }
     }
 }
