@@ -250,7 +250,8 @@
 /* A pair is in lasting contact that hit more often in the frame, ... Chosen. */
 #define STEP_LASTING_HITS 3
 /*
- * ... or more often than this where a gap is below that part of a skin: hits stop at half of one.
+ * ... or more often than this where a gap is below that part of a skin: hits stop at half of one. Such
+ * a gap also makes solves exact (solve/rest.c).
  */
 #define STEP_CLOSED_HITS    1
 #define STEP_CLOSED_DIVISOR 16

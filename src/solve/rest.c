@@ -194,6 +194,19 @@ static int64_t loose_q40(const struct rest *r, bool start)
     return moves ? carom_shl(skin_q22, 18) / REST_LOOSE_DIVISOR : 0;
 }
 
+/* True if a gap of the island is all but gone: an approach by the residual would close it in some frames. */
+static bool is_nearly_closed(const struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+
+        if (c->gap_q22 < c->skin_q22 / STEP_CLOSED_DIVISOR) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Solve the island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
@@ -219,7 +232,8 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
-    sw.loose_q40 = few || impacts || rest_has_joints(r) ? 0 : loose_q40(r, warm);
+    sw.loose_q40 =
+        few || impacts || rest_has_joints(r) || is_nearly_closed(r) ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if (rest_has_joints(r)) { /* the end of the frame takes care of their energy */
