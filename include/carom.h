@@ -637,7 +637,7 @@ struct carom_stats {
     uint32_t cut_islands;
     /**
      * islands and pairs that went on as one body, or came to rest on what stands still, because a solve did not part
-     * them or nothing pressed them together
+     * them, nothing pressed them together, or their contacts gained energy
      */
     uint32_t calmed;
 };
