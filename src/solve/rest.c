@@ -194,13 +194,13 @@ static int64_t loose_q40(const struct rest *r, bool start)
     return moves ? carom_shl(skin_q22, 18) / REST_LOOSE_DIVISOR : 0;
 }
 
-/* True if a gap of the island is all but gone: an approach by the residual would close it in some frames. */
+/* True if a lasting contact's gap is all but gone: an approach by the residual would close it in some frames. */
 static bool is_nearly_closed(const struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
 
-        if (c->gap_q22 < c->skin_q22 / STEP_CLOSED_DIVISOR) {
+        if (c->lasting && c->gap_q22 < c->skin_q22 / STEP_CLOSED_DIVISOR) {
             return true;
         }
     }
