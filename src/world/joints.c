@@ -130,8 +130,8 @@ int world_part_joint(struct carom_world *w, struct world_state *state, const str
     struct interfere_placed a, b;
     struct pair p;
 
-    if (j->touch || j->b == JOINT_WORLD) {
-        return CAROM_OK;
+    if (j->touch || j->b == JOINT_WORLD || state->bodies[j->a].out || state->bodies[j->b].out) {
+        return CAROM_OK; /* a body that left the world passes through nothing */
     }
     p = world_name_pair(w, j->a, j->b);
     a = (struct interfere_placed){&w->bodies[p.a], &state->bodies[p.a]};
