@@ -250,8 +250,8 @@
 /* A pair is in lasting contact that hit more often in the frame, ... Chosen. */
 #define STEP_LASTING_HITS 3
 /*
- * ... or more often than this where a gap is below that part of a skin: hits stop at half of one. Such
- * a gap also makes solves exact (solve/rest.c).
+ * ... or more often than this where a gap is below that part of a skin: hits stop at half of one.
+ * An island with such a lasting contact gets no loose residual (solve/rest.c).
  */
 #define STEP_CLOSED_HITS    1
 #define STEP_CLOSED_DIVISOR 16
@@ -324,8 +324,11 @@
  * and solves see it as straight. In joint_measure.c.
  */
 #define STEP_JOINT_TURN_Q30 (CAROM_ONE_Q30 / 8)
-/* An island that spins faster does not go through a frame as one rigid body. Chosen: some 40 slices. */
-#define RIGID_SPIN_MAX_Q40 ((int64_t)16 << 40)
+/*
+ * An island that spins faster, radians a frame, does not go through it as one rigid body. Chosen:
+ * some 32 slices. In step/as_one.c.
+ */
+#define STEP_AS_ONE_SPIN_MAX_Q40 ((int64_t)16 << 40)
 /*
  * Momenta are multiplied by 7/8 to 9/8 to change energy by what is owed. Chosen; in step/energy.c.
  */

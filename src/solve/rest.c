@@ -194,7 +194,10 @@ static int64_t loose_q40(const struct rest *r, bool start)
     return moves ? carom_shl(skin_q22, 18) / REST_LOOSE_DIVISOR : 0;
 }
 
-/* True if a lasting contact's gap is all but gone: an approach by the residual would close it in some frames. */
+/*
+ * True if a lasting contact's gap is all but gone: an approach by the residual would close it in
+ * some frames.
+ */
 static bool is_nearly_closed(const struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {

@@ -170,7 +170,9 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
     }
 }
 
-/* The island's inertia about its centre as rows of up to 30 bits, and how far it was shifted down. */
+/*
+ * The island's inertia about its centre as rows of up to 30 bits, and how far it was shifted down.
+ */
 struct inertia {
     int32_t m[6];
     int down;
@@ -360,7 +362,7 @@ void rest_unite(struct rest *r, uint32_t island, bool grounded)
 
 /* ----------------------------------------------------------------- a whole frame */
 
-/* M = L + M x u. */
+/* One round of cayley: M = L + M x u. */
 static void add_turn(int64_t m[3], const int64_t l[3], const int32_t u_q30[3])
 {
     int64_t next[3];
@@ -374,8 +376,9 @@ static void add_turn(int64_t m[3], const int64_t l[3], const int32_t u_q30[3])
 }
 
 /*
- * The Cayley vector of a turn over tau in the world's axes, by the implicit midpoint rule of body/path.c: u is half of tau times
- * the spin that M has, and M = L + M x u. It keeps the energy. Zero if the spin cannot be found.
+ * The Cayley vector of a turn over tau in the world's axes, by the implicit midpoint rule of
+ * body/path.c: u is half of tau times the spin that M has, and M = L + M x u. It keeps the energy.
+ * Zero if the spin cannot be found.
  */
 static FIX_OWN_FRAME void cayley(const struct rest *r, struct rest_rigid *rigid,
                                  const struct inertia *inertia, const struct momenta *all,

@@ -51,9 +51,10 @@ void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30);
 void rest_unite(struct rest *r, uint32_t island, bool grounded);
 
 /*
- * Move a free island for a whole frame as one rigid body, from its present poses: its bodies keep their places to each other, and
- * it keeps its momenta and the energy of its rigid motion. `rigid` is that motion, with a spin of at most RIGID_SPIN_MAX_Q40;
- * `pull`, units / frame^2, accelerates all of its bodies.
+ * Move a free island for a whole frame as one rigid body, from its present poses: its bodies keep
+ * their places to each other, and it keeps its momenta and the energy of its rigid motion, within
+ * 2^-25; within 2^-22 if it is thin and turns in many slices. `rigid` is that motion, with a spin of
+ * at most STEP_AS_ONE_SPIN_MAX_Q40; `pull`, units / frame^2, accelerates all of its bodies.
  */
 void rest_go_rigid(struct rest *r, struct rest_rigid *rigid, const carom_v3_q40 *pull);
 

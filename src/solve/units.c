@@ -14,8 +14,8 @@
 #define LARGER_BITS 4
 
 /*
- * The V.N that sweeps lead to. Sweeps that part bodies open a resting contact whose gap is all but gone: at V.N = 0, found again
- * in many frames, roundings would close the rest of it.
+ * The V.N that sweeps lead to. Sweeps that part bodies open a resting contact whose gap is all but
+ * gone: at V.N = 0, found again in many frames, roundings would close the rest of it.
  */
 FIX_APART static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * An island in the air that goes through a frame as one rigid body: the last resort where its contacts gained energy that its
- * bodies' motion against each other does not have. The frame is undone for it; no other island notices.
+ * An island in the air that goes through a frame as one rigid body: the last resort where its
+ * contacts gained energy that its bodies' motion against each other does not have. The frame is
+ * undone for it; no other island notices.
  */
 #include "../solve/rigid.h"
 #include "parts.h"
@@ -29,7 +30,7 @@ static bool fall_alike(const struct step *s, uint32_t first)
 }
 
 /* Radius of a sphere around the island's centre that holds all of its bodies. */
-static int64_t radius_q22(const struct step *s, const struct rest_rigid *rigid)
+static int64_t island_radius_q22(const struct step *s, const struct rest_rigid *rigid)
 {
     int64_t radius_q22 = 0;
 
@@ -74,7 +75,7 @@ static struct sphere around_island(const struct step *s, const struct rest_rigid
         sphere.from_q32[k] = rigid->centre.c[k];
         sphere.way_q32[k] = carom_round(rigid->velocity.c[k], 8);
     }
-    sphere.radius_q22 = radius_q22(s, rigid) + (fix_length_bound(pull) >> 18) + 1;
+    sphere.radius_q22 = island_radius_q22(s, rigid) + (fix_length_bound(pull) >> 18) + 1;
     return sphere;
 }
 
@@ -104,7 +105,9 @@ static bool passes_standing(const struct sphere *sphere, const struct body *b,
 }
 
 /*
- * True if a sphere passes a body that moved. It may have been beside its way from start to end, but hardly by more than its length.
+ * True if a sphere passes a body that moved. Where it was between start and end is not kept: it may
+ * have been beside the way, and a part as long as the way is left for that. One that bounced farther
+ * may have been in the island's way; at the end of the frame it is not.
  */
 static bool passes_moved(const struct sphere *sphere, const struct body *b,
                          const struct body_state *from, const struct body_state *to)
@@ -143,7 +146,10 @@ static bool is_clear(const struct step *s, const struct rest_rigid *rigid)
     return true;
 }
 
-/* Find the rigid motion that an island had when the frame began. False if it cannot go through the frame with it. */
+/*
+ * Find the rigid motion that an island had when the frame began. False if it cannot go through the
+ * frame with it.
+ */
 static FIX_OWN_FRAME bool may_go(struct step *s, uint32_t first, struct rest_rigid *rigid)
 {
     struct carom_world *w = s->w;
@@ -155,7 +161,8 @@ static FIX_OWN_FRAME bool may_go(struct step *s, uint32_t first, struct rest_rig
     w->rest.states = w->now->bodies;
     found = rest_rigid_motion(&w->rest, first, rigid);
     w->rest.states = s->next->bodies;
-    return found && fix_length_bound(rigid->spin.c) <= RIGID_SPIN_MAX_Q40 && is_clear(s, rigid);
+    return found && fix_length_bound(rigid->spin.c) <= STEP_AS_ONE_SPIN_MAX_Q40 &&
+           is_clear(s, rigid);
 }
 
 void step_go_as_one(struct step *s, uint32_t first)

@@ -208,7 +208,8 @@ static bool is_pushed(const struct step *s, uint32_t first)
 }
 
 /*
- * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone has more energy than it had.
+ * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone
+ * has more energy than it may have.
  */
 static bool limit_island(struct step *s, uint32_t first)
 {
@@ -334,7 +335,8 @@ static void give_back_gravity(struct step *s, uint32_t first)
 }
 
 /*
- * Limit an island that touched something. `surely`: skip the cheap test whether it may have gained. True as limit_island is.
+ * Limit an island that touched something. `surely`: skip the cheap test whether it may have gained.
+ * True as limit_island is.
  */
 static bool limit_touched(struct step *s, uint32_t first, bool surely)
 {

@@ -188,7 +188,9 @@ void world_forget_impulses(struct carom_world *w, uint32_t body)
     s->warm_count = kept;
 }
 
-/* Drop the contacts of a body that is removed: they name it, and their points are those of its path. */
+/*
+ * Drop the contacts of a body that is removed: they name it, and their points are those of its path.
+ */
 static void drop_contacts(struct carom_world *w, uint32_t body)
 {
     struct contact_list *list = &w->rest.list;
