@@ -25,7 +25,7 @@ extern "C" {
 /** Kinds of meshes. */
 enum carom_mesh_kind {
     CAROM_SOLID = 0,  /**< closed and oriented outwards */
-    CAROM_SURFACE = 1 /**< a height field: open, one z over each x, y, solid below; stationary */
+    CAROM_SURFACE = 1 /**< a height field: open, one z over each x, y; stationary; nothing crosses it */
 };
 
 /** Triangles over int16 vertices, as the converter or the caller makes them. */
@@ -87,6 +87,11 @@ struct carom_face {
     uint32_t edge[3];    /**< edge k joins corners k and k+1 */
     /** bits 0-2: the face owns corner k; bits 3-5: edge k. The owner emits its candidates */
     uint8_t own;
+    /**
+     * the same bits for features that only a body behind the surface can touch: an edge that bends inwards, and a
+     * vertex all of whose edges are flat or bend inwards
+     */
+    uint8_t behind;
 };
 
 /** Most faces of a leaf. */

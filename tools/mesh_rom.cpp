@@ -46,7 +46,7 @@ void array(std::ostream &out, const std::string &declaration, size_t count, Elem
 std::string face(const carom_face &f)
 {
     return "{{" + list(f.normal.c, 3) + "}, " + std::to_string(f.offset_q22) + ", " +
-           list(f.edge, 3) + ", " + std::to_string(f.own) + "}";
+           list(f.edge, 3) + ", " + std::to_string(f.own) + ", " + std::to_string(f.behind) + "}";
 }
 
 std::string edge(const carom_edge &e)

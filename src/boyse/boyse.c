@@ -79,6 +79,7 @@ static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const 
                       int64_t shift_q40, struct boyse_hit *hit, bool *far)
 {
     struct walk walk;
+    const bool either = boyse_either_side(pair, c);
     int32_t last_root = 0;
 
     *far = false;
@@ -90,10 +91,11 @@ static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const 
         touch.valid = false;
 
         /* a vertex that leaves through the back of a face is no hit */
-        if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
+        if (c->kind == CANDIDATE_EDGE_EDGE || either || walk.slope8 < 0) {
             scale_q30 = boyse_test(pair, c, walk.t_q30, &touch);
         }
-        touch.valid = touch.valid && touch.sign * walk.slope8 < 0;
+        touch.valid = touch.valid && touch.sign * walk.slope8 < 0 &&
+                      !(either && touch.sign * shift_q40 < 0); /* that surface is behind it */
         *far = *far || (touch.valid && !is_there(pair, c, &touch));
         if (touch.valid && is_there(pair, c, &touch)) {
             bool edges = c->kind == CANDIDATE_EDGE_EDGE;
@@ -200,7 +202,7 @@ static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct c
         hit->t_q30 = hit->root_q30 = 0;
         return true;
     }
-    if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
+    if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0 || boyse_either_side(pair, c)) {
         shift_q40 = lower(a[0], touching, level_q40(pair, c));
     }
     /*
@@ -218,9 +220,9 @@ static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct c
             return true;
         }
         a[0] += shift_q40;
-        if (touching != 0 && c->kind != CANDIDATE_EDGE_EDGE && a[0] < 0) {
+        if (c->kind != CANDIDATE_EDGE_EDGE && touching * a[0] < 0) {
             /* touches from behind, beside the face: it may come out and go in again */
-            shift_q40 = level_q40(pair, c);
+            shift_q40 = touching * level_q40(pair, c);
             touching = 0;
             continue;
         }

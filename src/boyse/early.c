@@ -86,7 +86,8 @@ static bool vertex_stays_beside(const struct boyse_view *view, uint32_t face, co
 static bool vertex_may_meet(const struct boyse_pair *pair, const struct candidate *c)
 {
     const struct boyse_view *view = boyse_view(pair, c);
-    const struct carom_face *face = &view->to->def.mesh->faces[c->j];
+    const struct carom_mesh *mesh = view->to->def.mesh;
+    const struct carom_face *face = &mesh->faces[c->j];
     const carom_v3_q22 vertex = mesh_vertex(view->from->def.mesh, c->i);
     const struct vec x = place_q20(view, &vertex);
     const int32_t *n = face->normal.c;
@@ -107,7 +108,11 @@ static bool vertex_may_meet(const struct boyse_pair *pair, const struct candidat
     velocity.c[2] += view->field.c[2] >> 2;
     rate_q20 = dot(n, velocity.c, 30);
     bend_q20 = (view->seen.bend_q22 >> 2) + BEND_SLACK_Q20;
-    if (gap_q20 < -below_q20) {
+    if (gap_q20 < -below_q20 && mesh_two_sided(mesh)) {
+        if (stays_above(-gap_q20, -rate_q20, bend_q20, NEAR_Q20)) {
+            return false;
+        }
+    } else if (gap_q20 < -below_q20) {
         /* it must rise above the plane, then fall: the bend must be able to flip the rate's sign */
         if (gap_q20 + rate_q20 + bend_q20 <= -below_q20 || rate_q20 >= 3 * bend_q20) {
             return false;

@@ -12,6 +12,11 @@
 #define BOYSE_POINT_NOISE_Q22 4
 /* Tolerance of the early test: rounding, and the nearer surface of boyse_first (ROOT_LEVEL_Q22). */
 #define BOYSE_NEAR_Q22 12
+/*
+ * Touches of a two-sided mesh that are deeper than this count on its front alone, see touch.c. The
+ * search for a root shifts a surface by as much (BOYSE_ROOT_LEVEL_Q22).
+ */
+#define BOYSE_BEHIND_Q22 (-BOYSE_ROOT_LEVEL_Q22)
 /* Below this sine, 1/16, w and d get more digits. */
 #define BOYSE_FINE_Q30 (1 << 26)
 /*
@@ -24,6 +29,12 @@ static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,
                                                   const struct candidate *c)
 {
     return &pair->view[c->kind == CANDIDATE_FACE_VERTEX];
+}
+
+/* True if a vertex of a may touch a face of b from both sides. */
+static inline bool boyse_either_side(const struct boyse_pair *pair, const struct candidate *c)
+{
+    return c->kind == CANDIDATE_VERTEX_FACE && mesh_two_sided(pair->b->def.mesh);
 }
 
 /* Set everything of two edges but `vertex` and e, which are given. */

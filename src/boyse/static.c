@@ -10,6 +10,7 @@
 /* Edges whose w needs more bits than this may meet far from both lines' nearest points. */
 #define CLEAR_UP_MAX 5
 
+/* True if the features may touch; the gap is that of either side if a vertex may be on both. */
 static bool is_near(const struct boyse_view *view, const struct candidate *c,
                     const struct boyse_places *p, int32_t deepest_q22, int32_t margin_q22)
 {
@@ -22,6 +23,9 @@ static bool is_near(const struct boyse_view *view, const struct candidate *c,
         return carom_abs(carom_dot(p->w, p->d)) <= size * (margin_q22 + 1);
     }
     gap_q22 = boyse_plane_gap_q52(view, c, p) >> 30;
+    if (gap_q22 < 0 && c->kind == CANDIDATE_VERTEX_FACE && mesh_two_sided(view->to->def.mesh)) {
+        return -gap_q22 <= fix_larger(margin_q22, -deepest_q22);
+    }
     return gap_q22 <= margin_q22 && gap_q22 >= deepest_q22;
 }
 

@@ -165,7 +165,39 @@ static void place(const struct moment *m, const struct candidate *c,
     boyse_complete_edges(p);
 }
 
+/*
+ * Two-sided meshes. The other body's features tell which side a touch is on: N enters them. The far
+ * side of a body thinner than the skin would touch, too, as deep as the body is thick. So a touch
+ * that is deep counts only on the front, of a body whose centre lies there.
+ */
+
+/* True if a touch of a two-sided mesh counts. n is N in its axes, height the centre's along N. */
+static inline bool counts(const struct boyse_touch *touch, int32_t n_z_q30, int64_t height)
+{
+    return touch->gap_q22 >= BOYSE_BEHIND_Q22 || (n_z_q30 > 0 && height > 0);
+}
+
 /* --------------------------------------------------------- a vertex and a face */
+
+/* Judge a vertex over a two-sided face with normal n, in the vertex's mesh axes. */
+static void test_either_side(const struct moment *m, const struct candidate *c,
+                             const struct boyse_places *p, const int32_t n[3],
+                             struct boyse_touch *touch)
+{
+    const bool below = mesh_vertex_below(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30);
+    int64_t height = 0; /* of the centre above the vertex */
+
+    for (int k = 0; k < 3; k++) {
+        height += (int64_t)p->n[k] * (m->centre_q22[k] - p->vertex.c[k]);
+    }
+    /* a vertex in a plane of its body is on either side: the centre decides */
+    if (below && (!touch->valid || height < 0)) {
+        touch->valid = true;
+        touch->sign = -1;
+        touch->gap_q22 = -touch->gap_q22;
+    }
+    touch->valid = touch->valid && counts(touch, touch->sign, height);
+}
 
 static void test_vertex_face(const struct moment *m, const struct candidate *c,
                              const struct boyse_places *p, struct boyse_touch *touch)
@@ -178,6 +210,11 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
     if (mesh_over_face(m->view->to->def.mesh, c->j, &p->vertex, BOYSE_POINT_NOISE_Q22)) {
         direction_back(m, p->n, n);
         touch->valid = mesh_vertex_cone(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30);
+        if (mesh_two_sided(m->view->to->def.mesh)) {
+            test_either_side(m, c, p, n, touch);
+        } else if (touch->valid && mesh_two_sided(m->view->from->def.mesh)) {
+            touch->valid = counts(touch, -n[2], carom_dot(p->n, p->vertex.c));
+        }
     }
 }
 
@@ -325,7 +362,8 @@ static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
 /*
  * Sign of N, by the way that the faces of both edges look. Nearly flat edges have both signs within
  * the tolerance of their cones. Taken together the two faces of a convex edge look along any N
- * between them, so a sign that only the tolerance allows is rejected. 0: neither sign is possible.
+ * between them, so a sign that only the tolerance allows is rejected. Those of a two-sided mesh may
+ * look either way. 0: neither sign is possible.
  */
 static int sign_of(const struct moment *m, const struct boyse_places *p,
                    const struct edge_normal *n)
@@ -334,6 +372,10 @@ static int sign_of(const struct moment *m, const struct boyse_places *p,
     int sign;
 
     add_cones(&cones, m->view->to->def.mesh, p->edge_b, n->on_b, true);
+    if (mesh_two_sided(m->view->to->def.mesh)) {
+        cones.out = 0;
+        cones.border = false;
+    }
     add_cones(&cones, m->view->from->def.mesh, p->edge_a, n->on_a, false);
     sign = cones.out >= 0 ? 1 : -1;
     for (int turn = 0; turn < 2; turn++, sign = -sign) {
@@ -343,6 +385,18 @@ static int sign_of(const struct moment *m, const struct boyse_places *p,
         }
     }
     return 0;
+}
+
+/* True if a touch of edges counts on the side of b's two-sided mesh where it is. */
+static bool edges_count(const struct moment *m, const struct boyse_places *p,
+                        const struct edge_normal *n, const struct boyse_touch *touch)
+{
+    int64_t height = 0; /* of a's centre above b's edge, along N */
+
+    for (int k = 0; k < 3; k++) {
+        height += (int64_t)n->on_b[k] * (m->centre_q22[k] - p->start_b.c[k]);
+    }
+    return counts(touch, touch->sign * n->on_b[2], touch->sign * height);
 }
 
 /* Exact test of two edges. Returns |w| as it is in P; sets n if the touch is valid. */
@@ -368,6 +422,9 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
         }
     }
     touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
+    if (touch->valid && mesh_two_sided(m->view->to->def.mesh)) {
+        touch->valid = edges_count(m, p, n, touch);
+    }
     return turns ? sine_q30 >> p->up : sine_q30;
 }
 
@@ -417,7 +474,7 @@ static void touch_at(const struct moment *m, const struct candidate *c,
     } else {
         test_vertex_face(m, c, p, touch);
         normal = p->n; /* the face's */
-        sign = c->kind == CANDIDATE_VERTEX_FACE ? 1 : -1;
+        sign = c->kind == CANDIDATE_VERTEX_FACE ? touch->sign : -1;
     }
     if (!touch->valid) {
         return;
@@ -446,5 +503,6 @@ void boyse_touch_start(const struct boyse_pair *pair, const struct candidate *c,
 
     m.view = boyse_view(pair, c);
     m.from.turns = m.to.turns = false;
+    memcpy(m.centre_q22, m.view->centre.c, sizeof m.centre_q22);
     touch_at(&m, c, &pair->start, touch);
 }

@@ -42,7 +42,9 @@ bool interfere_vertex_face(const struct interfere *in, const struct target *t, u
         return false;
     }
     carom_rotate_back(n, &l->to_b, t->face->normal.c);
-    return mesh_vertex_cone(in->a->def.mesh, interfere_vertex(in, at), n, l->cone_q30);
+    return mesh_vertex_cone(in->a->def.mesh, interfere_vertex(in, at), n, l->cone_q30) ||
+           (mesh_two_sided(in->b->def.mesh) &&
+            mesh_vertex_below(in->a->def.mesh, interfere_vertex(in, at), n, l->cone_q30));
 }
 
 bool interfere_face_vertex(const struct interfere *in, const struct target *t, uint32_t i, int k)

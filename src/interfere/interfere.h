@@ -95,9 +95,11 @@ struct interfere_leaf {
     /* if listed: each face's corners as bits of the leaf's vertices, and the edges that it owns */
     uint32_t corners[CAROM_LEAF_FACES];
     uint8_t own_edges[CAROM_LEAF_FACES];
-    uint32_t boxed; /* faces whose swept box is set, a bit each */
+    uint16_t boxed; /* faces whose swept box is set, a bit each */
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
-    uint32_t placed; /* faces whose plane is set, a bit each */
+    uint16_t placed; /* faces whose plane is set, a bit each */
+    uint16_t asked;  /* faces of which `up` is known, a bit each */
+    uint16_t up;     /* faces that look up during the span, or whose neighbours do */
     struct interfere_plane planes[CAROM_LEAF_FACES];
 };
 

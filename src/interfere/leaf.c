@@ -99,7 +99,7 @@ void interfere_list_faces(struct interfere *in)
     struct interfere_leaf *l = in->leaf;
 
     l->listed = true;
-    l->boxed = l->placed = 0;
+    l->boxed = l->placed = l->asked = l->up = 0;
     for (uint32_t i = 0; i < l->leaf->face_count; i++) {
         const uint8_t *corner = interfere_corners(in, i);
 
@@ -113,7 +113,7 @@ void interfere_box_face(struct interfere *in, uint32_t i)
     struct interfere_leaf *l = in->leaf;
     const uint8_t *corner = interfere_corners(in, i);
 
-    l->boxed |= 1u << i;
+    l->boxed |= (uint16_t)(1u << i);
     interfere_bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i],
                     &l->face_high[i]);
     for (int k = 0; k < 3; k++) {
@@ -128,10 +128,42 @@ void interfere_place_plane(struct interfere *in, uint32_t i)
     struct interfere_plane *plane = &l->planes[i];
     int32_t offset_q18, reach_q18;
 
-    l->placed |= 1u << i;
+    l->placed |= (uint16_t)(1u << i);
     carom_rotate(plane->n_q30, &l->to_b, in->a->def.mesh->faces[interfere_face(in, i)].normal.c);
     offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(in, i)[0]].c);
     reach_q18 = interfere_reach_q18(l, plane->n_q30);
     plane->above_q18 = offset_q18 + reach_q18;
     plane->below_q18 = offset_q18 - reach_q18;
+}
+
+/* True if a face of a, or one across its edges, may look up along b's z. a is a SOLID. */
+static bool looks_up(const struct interfere *in, uint32_t face)
+{
+    const struct carom_mesh *ma = in->a->def.mesh;
+    const int32_t *up = in->leaf->to_b.c[2], least_q28 = -(in->leaf->cone_q30 >> 2) - 1;
+
+    for (int k = 0; k < 3; k++) {
+        const struct carom_edge *edge = &ma->edges[ma->faces[face].edge[k]];
+
+        for (int side = 0; side < 2; side++) {
+            if (interfere_dot(up, ma->faces[edge->face[side]].normal.c) > least_q28) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+uint32_t interfere_faces_up(struct interfere *in, uint32_t faces)
+{
+    struct interfere_leaf *l = in->leaf;
+    uint32_t left = faces & ~(uint32_t)l->asked;
+
+    l->asked |= (uint16_t)faces;
+    for (uint32_t i = 0; left != 0; i++, left >>= 1) {
+        if ((left & 1) && looks_up(in, interfere_face(in, i))) {
+            l->up |= (uint16_t)(1u << i);
+        }
+    }
+    return faces & l->up;
 }

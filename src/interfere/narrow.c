@@ -195,15 +195,18 @@ static void edge_edges(struct interfere *in, const struct target *t, int j, uint
 
 void interfere_features(struct interfere *in, struct target *t)
 {
-    uint32_t own = t->face->own, near = own != 0 ? interfere_faces_near(in, t) : 0;
+    uint32_t own = t->face->own,
+             behind = mesh_two_sided(in->b->def.mesh) ? t->face->behind : 0;
+    uint32_t near = (own | behind) != 0 ? interfere_faces_near(in, t) : 0;
+    uint32_t up = near != 0 && behind != 0 ? interfere_faces_up(in, near) : 0;
 
     vertices_face(in, t);
     for (int k = 0; near != 0 && k < 3; k++) {
-        if (own >> k & 1) {
-            face_vertex(in, t, k, near);
+        if ((own | behind) >> k & 1) {
+            face_vertex(in, t, k, own >> k & 1 ? near : up);
         }
-        if (own >> (3 + k) & 1) {
-            edge_edges(in, t, k, near);
+        if ((own | behind) >> (3 + k) & 1) {
+            edge_edges(in, t, k, own >> (3 + k) & 1 ? near : up);
         }
     }
 }

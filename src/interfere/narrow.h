@@ -90,6 +90,12 @@ void interfere_list_faces(struct interfere *in);
 void interfere_box_face(struct interfere *in, uint32_t i);
 void interfere_place_plane(struct interfere *in, uint32_t i);
 
+/*
+ * Those of the leaf's faces, a bit each, that can touch b's other side: they, or faces across their
+ * edges, look up along b's z during the span.
+ */
+uint32_t interfere_faces_up(struct interfere *in, uint32_t faces);
+
 static inline void interfere_bound(const struct interfere_vec *p, const struct interfere_vec *q,
                                    const struct interfere_vec *r, struct interfere_vec *low,
                                    struct interfere_vec *high)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Edges of a mesh: found by sorting the sides of faces, listed at each vertex, and owned by a face
- * if convex.
+ * if the surface bends there.
  */
 #include "build.h"
 
@@ -96,24 +96,31 @@ static void place_edge(const struct mesh_builder *b, struct carom_edge *e)
     e->length_q22 = (int32_t)fix_length(along_q22); /* at most the box's diagonal */
 }
 
+/* How the surface bends at an edge. */
+enum bend { FLAT, OUTWARDS, INWARDS };
+
 /*
- * True if the surface bends outwards at an edge, or ends there. Where it folds back by more than a
- * right angle it cannot be flat, so doubtful cases count as convex: a thin blade is sharp.
+ * A border counts as an edge that bends outwards. Where the surface folds back by more than a right
+ * angle it cannot be flat, so doubtful cases count as outwards: a thin blade is sharp.
  */
-static bool is_convex(const struct mesh_builder *b, const struct carom_edge *e)
+static enum bend bend_at(const struct mesh_builder *b, const struct carom_edge *e)
 {
     const int32_t *n0, *n1;
     int32_t inward[3];
-    int64_t limit_q60 = (int64_t)FLAT_Q30 * CAROM_ONE_Q30;
+    int64_t limit_q60 = (int64_t)FLAT_Q30 * CAROM_ONE_Q30, rise_q60;
 
     if (e->face[1] == CAROM_NO_FACE) {
-        return true;
+        return OUTWARDS;
     }
     n0 = b->faces[e->face[0]].normal.c;
     n1 = b->faces[e->face[1]].normal.c;
     /* face 1 runs against the edge; its inside is to the left of its sides */
     carom_cross(inward, e->direction.c, n1, 30);
-    return carom_dot(n0, inward) < (carom_dot(n0, n1) < 0 ? limit_q60 : -limit_q60);
+    rise_q60 = carom_dot(n0, inward);
+    if (rise_q60 < (carom_dot(n0, n1) < 0 ? limit_q60 : -limit_q60)) {
+        return OUTWARDS;
+    }
+    return rise_q60 > limit_q60 ? INWARDS : FLAT;
 }
 
 /* Make the edges from the sorted sides, and enter them in their faces. */
@@ -165,8 +172,8 @@ static void make_rings(struct mesh_builder *b)
     mesh->ring = ring;
 }
 
-/* The bit in `own`, of the edge's face 0, that marks the edge as convex. */
-static uint8_t convex_flag(const struct mesh_builder *b, uint32_t edge)
+/* The bit of an edge in `own` and `behind` of its face 0. */
+static uint8_t edge_flag(const struct mesh_builder *b, uint32_t edge)
 {
     const struct carom_face *face = &b->faces[b->edges[edge].face[0]];
     int k = face->edge[0] == edge ? 0 : face->edge[1] == edge ? 1 : 2;
@@ -174,30 +181,35 @@ static uint8_t convex_flag(const struct mesh_builder *b, uint32_t edge)
     return (uint8_t)(8 << k);
 }
 
-/* Give every vertex at a convex edge to the first face that has it as a corner. */
+/*
+ * Give every vertex at an edge that bends to the first face that has it as a corner: as `behind` if
+ * no edge there bends outwards.
+ */
 static void own_vertices(struct mesh_builder *b)
 {
     const struct carom_mesh *mesh = b->mesh;
 
     for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
         uint32_t first = CAROM_NO_FACE;
-        bool sharp = false;
+        bool sharp = false, bends = false;
 
         for (uint32_t i = mesh->ring_start[v]; i < mesh->ring_start[v + 1]; i++) {
             uint32_t edge = mesh->ring[i] / 2;
+            const struct carom_face *owner = &b->faces[b->edges[edge].face[0]];
 
             for (int side = 0; side < 2; side++) {
                 uint32_t face = b->edges[edge].face[side];
 
                 first = face < first ? face : first;
             }
-            sharp |= (b->faces[b->edges[edge].face[0]].own & convex_flag(b, edge)) != 0;
+            sharp |= (owner->own & edge_flag(b, edge)) != 0;
+            bends |= (owner->behind & edge_flag(b, edge)) != 0;
         }
-        if (sharp) {
+        if (sharp || bends) {
             const uint16_t *corner = mesh->raw.faces[first];
             int k = corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
 
-            b->faces[first].own |= (uint8_t)(1 << k);
+            *(sharp ? &b->faces[first].own : &b->faces[first].behind) |= (uint8_t)(1 << k);
         }
     }
 }
@@ -205,13 +217,16 @@ static void own_vertices(struct mesh_builder *b)
 void mesh_shape_edges(struct mesh_builder *b)
 {
     for (uint32_t f = 0; f < b->mesh->raw.face_count; f++) {
-        b->faces[f].own = 0;
+        b->faces[f].own = b->faces[f].behind = 0;
     }
     for (uint32_t i = 0; i < b->mesh->edge_count; i++) {
+        struct carom_face *owner = &b->faces[b->edges[i].face[0]];
+        enum bend bend;
+
         place_edge(b, &b->edges[i]);
-        if (is_convex(b, &b->edges[i])) {
-            b->faces[b->edges[i].face[0]].own |= convex_flag(b, i);
-        }
+        bend = bend_at(b, &b->edges[i]);
+        owner->own |= bend == OUTWARDS ? edge_flag(b, i) : 0;
+        owner->behind |= bend == INWARDS ? edge_flag(b, i) : 0;
     }
     own_vertices(b);
 }

@@ -32,6 +32,14 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
     return true;
 }
 
+bool mesh_vertex_below(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
+                       int32_t tolerance_q30)
+{
+    const int32_t down_q30[3] = {-n_q30[0], -n_q30[1], -n_q30[2]};
+
+    return mesh_vertex_cone(mesh, v, down_q30, tolerance_q30);
+}
+
 int64_t mesh_longest(int64_t longest, const int64_t v[3])
 {
     uint64_t limit = (uint64_t)(longest * longest), square = 0; /* 3 2^62 fits */

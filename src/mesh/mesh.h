@@ -104,6 +104,15 @@ static inline bool mesh_lists_in_step(const struct carom_mesh *mesh)
     return mesh->surface && mesh->surface->does->make_lists;
 }
 
+/*
+ * True if bodies touch the mesh from both sides: a SURFACE whose vertices cannot move. Its other
+ * side has no features of its own; the side that a touch is on follows from the other body's ones.
+ */
+static inline bool mesh_two_sided(const struct carom_mesh *mesh)
+{
+    return mesh->raw.kind == CAROM_SURFACE && !mesh->surface;
+}
+
 /* Bound on any vertex's displacement since the last step; 0 for a mesh that cannot move. */
 static inline int32_t mesh_drift_most(const struct carom_mesh *mesh)
 {
@@ -192,5 +201,9 @@ inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const in
     }
     return true;
 }
+
+/* True if -n lies in the normal cone of a vertex: the body lies below a plane of normal n there. */
+bool mesh_vertex_below(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
+                       int32_t tolerance_q30);
 
 #endif
