@@ -7,8 +7,8 @@
  *   host_soak rows FIRST COUNT   a row of CSV a world
  *   host_soak SEED [FROM TO]     one world frame by frame, looked at in each; from .. to with its bodies
  *
- * A plain number names a world of bodies alone, mNUMBER a machine, wNUMBER a wild machine
- * (soak_machine.h).
+ * A plain number names a world of bodies alone, uNUMBER one of bodies that get under a surface, mNUMBER a
+ * machine, wNUMBER a wild machine (soak_machine.h).
  */
 #include <math.h>
 #include <stdio.h>
@@ -24,13 +24,15 @@
  */
 #define FIRST 30
 static const uint64_t known[] = {
-    53,   103,  173,  178,  215,  267,  340,  406,  425,  496,   502,   601,   626,  646,
-    740,  748,  792,  893,  963,  1060, 1098, 1113, 1455, 1468,  1513,  1608,  1678, 1719,
-    1754, 1791, 1953, 1973, 1977, 2123, 2257, 2391, 2502, 35778, 40350, 41135, 50051};
-/* A world's name: "12", "m12", "w12"; and how many of its frames to run, or 0 for all. */
+    53,   103,   173,   178,   215,   267,   340,   406,   425,   496,   502,  601,
+    626,  646,   740,   748,   792,   893,   963,   1060,  1098,  1113,  1455, 1468,
+    1513, 1608,  1678,  1719,  1754,  1791,  1953,  1973,  1977,  2123,  2257, 2391,
+    2502, 32845, 35778, 40350, 41135, 50051, 57246, 66172, 78597, 78700, 89294};
+enum kind { BODIES = 0, UNDER = 'u', MACHINE = 'm', WILD = 'w' };
+/* A world's name: "12", "u12", "m12", "w12"; and how many of its frames to run, or 0 for all. */
 struct name {
     uint64_t seed;
-    bool machine, wild;
+    enum kind kind;
     int frames;
 };
 /*
@@ -39,8 +41,8 @@ struct name {
  * snapshot: a broken joint had noted that two bodies which had left the world pass each other.
  */
 static const struct name known_machines[] = {
-    {50, true, false, 0}, {102, true, false, 0}, {121, true, false, 0}, {377, true, false, 0},
-    {14, true, true, 0},  {68, true, true, 60},  {123, true, true, 0}};
+    {50, MACHINE, 0}, {102, MACHINE, 0}, {121, MACHINE, 0}, {377, MACHINE, 0},
+    {14, WILD, 0},    {68, WILD, 60},    {123, WILD, 0}};
 /* Largest share of frames that may be cut short. */
 #define CUT_ALLOWED 0.01
 
@@ -69,7 +71,7 @@ static const char columns[] =
 
 static const char *prefix(void)
 {
-    return !world.machine ? "" : world.machine->wild ? "w" : "m";
+    return world.under ? "u" : !world.machine ? "" : world.machine->wild ? "w" : "m";
 }
 
 /* Print the figures that only a machine has. */
@@ -112,19 +114,19 @@ static void print_row(const struct soak_result *r)
 }
 
 /* The world at a place in the list that `make test` runs; false behind the last one. */
-static bool known_name(bool machine, size_t place, struct name *name)
+static bool known_name(enum kind kind, size_t place, struct name *name)
 {
     const size_t more = place - FIRST;
 
-    *name = (struct name){place + 1, machine, false, 0};
+    *name = (struct name){place + 1, kind, 0};
     if (place < FIRST) {
         return true;
     }
-    if (machine && more < sizeof known_machines / sizeof *known_machines) {
+    if (kind == MACHINE && more < sizeof known_machines / sizeof *known_machines) {
         *name = known_machines[more];
         return true;
     }
-    if (!machine && more < sizeof known / sizeof *known) {
+    if (kind == BODIES && more < sizeof known / sizeof *known) {
         name->seed = known[more];
         return true;
     }
@@ -133,16 +135,21 @@ static bool known_name(bool machine, size_t place, struct name *name)
 
 static struct name read_name(const char *text)
 {
-    bool wild = *text == 'w', machine = wild || *text == 'm';
+    bool plain = *text >= '0' && *text <= '9';
 
-    return (struct name){strtoull(text + machine, NULL, 10), machine, wild, 0};
+    return (struct name){strtoull(plain ? text : text + 1, NULL, 10),
+                         plain ? BODIES : (enum kind) * text, 0};
 }
 
 static void make(struct name name)
 {
-    soak_make(&world, name.seed);
-    if (name.machine) {
-        soak_machine_make(&world, name.wild);
+    if (name.kind == UNDER) {
+        soak_make_under(&world, name.seed);
+    } else {
+        soak_make(&world, name.seed);
+    }
+    if (name.kind == MACHINE || name.kind == WILD) {
+        soak_machine_make(&world, name.kind == WILD);
     }
 }
 
@@ -392,18 +399,19 @@ static void report(const struct sum *sum, enum soak_fault fault, bool ok, const 
                sum->frames, sum->faults[fault], worst, how);
 }
 
-/* Run some worlds of a kind; the names of their tests begin with the kind. */
-static void test(const char *kind, bool machine)
+/* Run some worlds of a kind; the names of their tests begin with its name. */
+static void test(const char *title, enum kind kind)
 {
+    const bool machine = kind == MACHINE;
     struct sum sum = {0};
     struct name name;
     char names[SOAK_FAULTS][64];
     double worst[SOAK_FAULTS] = {0};
 
-    for (size_t i = 0; known_name(machine, i, &name); i++) {
+    for (size_t i = 0; known_name(kind, i, &name); i++) {
         struct soak_result result;
 
-        if (open_case(kind, (long)name.seed)) {
+        if (open_case(title, (long)name.seed)) {
             continue;
         }
         run(name, &result);
@@ -419,10 +427,10 @@ static void test(const char *kind, bool machine)
     for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
         if (machine && (fault == SOAK_ENERGY || fault == SOAK_JOINT)) {
             /* known to fail (docs/soak.md): joints with limits */
-            printf("# %s/%s: %ld of %ld worlds fail, worst %.3g\n", kind, what_of[fault],
+            printf("# %s/%s: %ld of %ld worlds fail, worst %.3g\n", title, what_of[fault],
                    sum.faults[fault], sum.worlds, worst[fault]);
         } else if (what_of[fault] && (machine || fault < SOAK_JOINT)) {
-            snprintf(names[fault], sizeof names[fault], "%s/%s", kind, what_of[fault]);
+            snprintf(names[fault], sizeof names[fault], "%s/%s", title, what_of[fault]);
             report(&sum, fault,
                    fault == SOAK_CUT ? worst[fault] <= CUT_ALLOWED : sum.faults[fault] == 0,
                    names[fault], worst[fault]);
@@ -442,8 +450,9 @@ int main(int argc, char **argv)
         return 0;
     }
 #ifdef TEST_LONG /* with sanitizers, machines are enough: they have all parts of the others */
-    test("soak", false);
+    test("soak", BODIES);
+    test("under", UNDER);
 #endif
-    test("machine", true);
+    test("machine", MACHINE);
     return lab_finish();
 }

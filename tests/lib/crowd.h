@@ -78,6 +78,9 @@ enum crowd_pass {
     CROWD_PASS       /* none */
 };
 
+/* The side of a surface that a body's first corner is on. */
+enum crowd_where { CROWD_OVER, CROWD_UNDER, CROWD_BESIDE };
+
 struct crowd {
     struct carom_config config;
     struct carom_world *world;
@@ -87,7 +90,7 @@ struct crowd {
     struct crowd_body bodies[CROWD_BODIES];
     int body_count;
     bool touching[CROWD_BODIES][CROWD_BODIES]; /* pairs that began to touch and have not ended */
-    bool beside[CROWD_BODIES];                 /* bodies that were once beside a surface */
+    uint8_t where[CROWD_BODIES]; /* enum crowd_where: which side of the surfaces a body is on */
     double substeps;                           /* sub-steps of the last frame */
     long look_every; /* frames from one check of crossings to the next; 0: every frame */
     uint8_t pass[CROWD_BODIES][CROWD_BODIES]; /* enum crowd_pass; set by crowd_let_pass */
@@ -156,8 +159,8 @@ struct crowd_tally {
     double crossed_depth; /* the deepest crossing, units */
     double crossed_skins; /* depth in skins of the pair */
     /*
-     * Frames with bodies wholly inside others, or with a corner below a surface beside which the
-     * body has never been; the first of these frames.
+     * Frames with bodies wholly inside others, or with a body that got from one side of a surface
+     * to the other and was not beside it; the first of these frames.
      */
     long inside, inside_first;
     int inside_pair[2]; /* the first of these bodies, and the body around each */

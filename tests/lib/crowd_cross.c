@@ -95,8 +95,11 @@ void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass)
     crowd->pass[a][b] = crowd->pass[b][a] = (uint8_t)pass;
 }
 
-/* A body above a surface must not come below it, unless it was once beside the surface. */
-static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a, int b)
+/*
+ * Which side of a surface a body's first corner is on: over it or under it, as seen along its z, or
+ * beside its box.
+ */
+static enum crowd_where where_is(const struct crowd *crowd, int a, int b)
 {
     const int16_t(*box)[3] = crowd->bodies[b].def.mesh->box;
     const int bits = crowd->bodies[b].def.mesh->raw.quantum_bits;
@@ -104,28 +107,31 @@ static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a,
 
     corner_seen_now(at, crowd, a, b);
     for (int k = 0; k < 2; k++) {
-        crowd->beside[a] |= at[k] < real(box[0][k], bits) || at[k] > real(box[1][k], bits);
+        if (at[k] < real(box[0][k], bits) || at[k] > real(box[1][k], bits)) {
+            return CROWD_BESIDE;
+        }
     }
     at[2] += CROSSING_TOLERANCE;
-    if (crowd->beside[a]) {
-        if (oracle_under(mesh_of(crowd, b), at)) {
-            crowd_let_pass(crowd, a, b, CROWD_PASS_ONCE); /* a body on a joint may come up again */
-        }
-        return;
-    }
-    if (at[2] < real(box[1][2], bits) && oracle_under(mesh_of(crowd, b), at)) {
-        note_inside(tally, a, b);
-    }
+    return at[2] < real(box[1][2], bits) && oracle_under(mesh_of(crowd, b), at) ? CROWD_UNDER
+                                                                                : CROWD_OVER;
 }
 
+/* A body gets from one side of a surface to the other only beside it. Bodies begin over it. */
 static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int b = 0; b < crowd->body_count; b++) {
         for (int a = 0; a < crowd->body_count && is_surface(crowd, b); a++) {
-            if (!is_still(&crowd->bodies[a]) && (!crowd->beside[a] || crowd->bodies[a].linked) &&
-                !crowd->bodies[a].now.state.out && crowd->pass[a][b] == CROWD_MEET) {
-                watch_surface(crowd, tally, a, b);
+            enum crowd_where was = (enum crowd_where)crowd->where[a], now;
+
+            if (is_still(&crowd->bodies[a]) || crowd->bodies[a].now.state.out ||
+                crowd->pass[a][b] != CROWD_MEET) {
+                continue;
             }
+            now = where_is(crowd, a, b);
+            if (was != CROWD_BESIDE && now != CROWD_BESIDE && now != was) {
+                note_inside(tally, a, b);
+            }
+            crowd->where[a] = (uint8_t)now;
         }
     }
 }

@@ -30,6 +30,7 @@ struct soak_world {
     int moving;       /* moving bodies, which are the last ones */
     double gravity;   /* magnitude of gravity */
     double centre[3]; /* middle of the place of bodies */
+    bool under;       /* made by soak_make_under */
     /* rotation of a room; distance from its middle to its walls; largest error of a wall */
     double room[4], room_half, room_slack;
     /* mass is 2^-halvings, when all masses are powers of two; then momentum_of is exact */
@@ -43,9 +44,11 @@ struct soak_world {
 
 /*
  * Make a random world; soak_machine_make turns it into a machine. Its bodies are apart by more than
- * two skins, and none is inside another.
+ * two skins, and none is inside another. soak_make_under makes one in which all bodies begin around a
+ * surface and move to the space under it.
  */
 void soak_make(struct soak_world *world, uint64_t seed);
+void soak_make_under(struct soak_world *world, uint64_t seed);
 /*
  * Whether a body that has not started yet is clear of all others and within its room. `but`: of all
  * except this one, or the body itself.

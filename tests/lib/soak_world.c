@@ -24,6 +24,7 @@ struct plan {
     double lean;     /* largest lean of bodies from the axes, radians; below 0: any rotation */
     double half;     /* half side of the cube into which bodies are put */
     double start[3]; /* its middle */
+    double ring; /* distance from that middle at which bodies begin, instead of in the cube; or 0 */
 };
 
 /* --------------------------------------------------------------------- bodies */
@@ -174,10 +175,13 @@ static void find_place(struct soak_world *w, struct plan *p, int body)
     int tries = 0;
 
     do {
-        double at[3];
+        double at[3], way[3] = {0, 0, 0};
 
+        if (p->ring > 0) {
+            soak_direction(&p->r, way);
+        }
         for (int k = 0; k < 3; k++) {
-            at[k] = p->start[k] + p->half * soak_uniform(&p->r, -1, 1);
+            at[k] = p->start[k] + p->ring * way[k] + p->half * soak_uniform(&p->r, -1, 1);
         }
         any_turn(p, q);
         set_turn(def, q);
@@ -185,6 +189,7 @@ static void find_place(struct soak_world *w, struct plan *p, int body)
         clear = is_clear(w, body, body, body);
         if (++tries % 50 == 0 && w->ground != SOAK_ROOM) {
             p->half *= 1.15;
+            p->ring *= 1.15;
         }
     } while (!clear && tries < 2000);
     if (!clear) {
@@ -211,13 +216,12 @@ static void stand_still(struct soak_world *w, int body)
     w->crowd->bodies[body].def.stationary = true;
 }
 
-/* A plane of two triangles, or a field of hills. */
-static void add_surface(struct soak_world *w, struct plan *p)
+/* A plane of two triangles, or a field of hills. Returns the height of its hills. */
+static double lay_surface(struct soak_world *w, struct plan *p, double half)
 {
-    double half = p->half * soak_powers(&p->r, 1.5, 8), rough = 0;
+    double rough = 0;
     int n = 1, body;
 
-    half = soak_pick(&p->r, 4) == 0 || half > LARGEST_HALF ? LARGEST_HALF : half;
     if (w->ground == SOAK_FIELD) {
         n = 2 + soak_pick(&p->r, 23);
         rough = 2 * half / n * soak_powers(&p->r, 0.05, 2);
@@ -230,7 +234,15 @@ static void add_surface(struct soak_world *w, struct plan *p)
     if (soak_pick(&p->r, 2) == 0) {
         tilt(&w->crowd->bodies[body].def, &p->r);
     }
-    p->start[2] += 1.2 * p->half + rough;
+    return rough;
+}
+
+static void add_surface(struct soak_world *w, struct plan *p)
+{
+    double half = p->half * soak_powers(&p->r, 1.5, 8);
+
+    half = soak_pick(&p->r, 4) == 0 || half > LARGEST_HALF ? LARGEST_HALF : half;
+    p->start[2] += 1.2 * p->half + lay_surface(w, p, half);
 }
 
 /* Solids that stand below the falling bodies. */
@@ -330,7 +342,7 @@ static void set_motion(struct soak_world *w, struct plan *p, int body)
     share = how == 0 ? 0 : how == 1 ? 1 : soak_uniform(&p->r, 0, 1);
     soak_direction(&p->r, along);
     soak_direction(&p->r, axis);
-    if (soak_pick(&p->r, 2) == 0) {
+    if (soak_pick(&p->r, 2) == 0 || p->ring > 0) {
         double away[3];
 
         for (int k = 0; k < 3; k++) {
@@ -459,7 +471,23 @@ static double cube_root(double v)
     return root;
 }
 
-void soak_make(struct soak_world *w, uint64_t seed)
+/* A surface of about the bodies' size, and the middle of the space under it. */
+static void add_roof(struct soak_world *w, struct plan *p)
+{
+    double half = fmin(p->half * soak_powers(&p->r, 0.3, 3), LARGEST_HALF / 3);
+
+    w->ground = soak_pick(&p->r, 2) ? SOAK_PLANE : SOAK_FIELD;
+    w->exact = false;
+    (void)lay_surface(w, p, half);
+    p->ring = 1.5 * half + p->half; /* beyond the surface's corners */
+    p->start[2] -= p->half * soak_uniform(&p->r, 0.2, 1);
+    /* gravity pulls towards the surface from below in most worlds */
+    if (soak_pick(&p->r, 3) > 0) {
+        w->crowd->config.gravity.c[2] *= -1;
+    }
+}
+
+static void make(struct soak_world *w, uint64_t seed, bool under)
 {
     struct plan p = {.r = {seed * 0xd1342543de82ef95u}};
     double sizes[SOAK_BODIES], volume = 0;
@@ -474,9 +502,24 @@ void soak_make(struct soak_world *w, uint64_t seed)
         volume += sizes[i] * sizes[i] * sizes[i];
     }
     p.half = soak_uniform(&p.r, 0.8, 2.5) * cube_root(volume);
-    add_ground(w, &p);
+    if (under) {
+        add_roof(w, &p);
+    } else {
+        add_ground(w, &p);
+    }
     add_moving(w, &p, sizes);
     set_surfaces(w, &p);
+}
+
+void soak_make(struct soak_world *w, uint64_t seed)
+{
+    make(w, seed, false);
+}
+
+void soak_make_under(struct soak_world *w, uint64_t seed)
+{
+    make(w, seed, true);
+    w->under = true;
 }
 
 void soak_free(struct soak_world *w)
