@@ -229,6 +229,16 @@ static void random_scene(struct test_random *r, bool turn_b)
 static int64_t reach_q22;
 static double turn;
 
+/* Whether a vertex of a lies behind a face of b with normal n, if b has two sides. */
+static bool is_behind(int kind, const struct solid *cone, uint32_t v, const double n[3],
+                      double tolerance)
+{
+    const double back[3] = {-n[0], -n[1], -n[2]};
+
+    return kind == CANDIDATE_VERTEX_FACE && mesh_two_sided(&shape_b.mesh) &&
+           solid_vertex_cone(cone, v, back, tolerance);
+}
+
 /*
  * Every vertex of one body near a face of the other must be a candidate if it faces the other after
  * the turn of on_a. Near means near at the start. Returns how many there are.
@@ -244,7 +254,8 @@ static uint32_t try_vertices(const struct solid *on_a, int kind, double toleranc
     for (uint32_t v = 0; v < from->shape->raw.vertex_count; v++) {
         for (uint32_t f = 0; f < to->shape->raw.face_count && from->own_vertex[v]; f++) {
             if (solid_vertex_near(from, v, to, f, reach_q22 - PLACE_NOISE_Q22) &&
-                solid_vertex_cone(cone, v, plane->normal[f], tolerance)) {
+                (solid_vertex_cone(cone, v, plane->normal[f], tolerance) ||
+                 is_behind(kind, cone, v, plane->normal[f], tolerance))) {
                 CHECK(in_set(&found, kind, v, f));
                 count++;
             }
@@ -451,6 +462,7 @@ static void make_sheet(void)
     shape_box(&box, 12, FIELD * 256, FIELD * 256, 512);
     shape_body(&box, true, body, &states[0]);
     shape_field(&shape_a, 12, FIELD, 256, 200, 9);
+    shape_a.mesh.raw.kind = CAROM_SOLID; /* what moves has one side */
     body->def.mesh = &shape_a.mesh;
     body->def.radius_q22 = shape_a.mesh.radius_q22;
     solid_note_owned(&a);

@@ -351,59 +351,70 @@ static void check_edges(void)
 }
 
 /*
- * Ownership against exact signs: an edge's owner depends on whether face 1's opposite corner is
- * below face 0's plane.
+ * How the surface bends at an edge, by exact signs: whether face 1's opposite corner is below face
+ * 0's plane (1), above it (-1) or in it. A border counts as 1.
+ */
+static int exact_bend(const struct carom_edge *e)
+{
+    int64_t n[3], d[3], below;
+    const uint16_t *corner;
+    int k = 0;
+
+    if (e->face[1] == CAROM_NO_FACE) {
+        return 1;
+    }
+    corner = raw.faces[e->face[1]];
+    while (corner[k] == e->vertex[0] || corner[k] == e->vertex[1]) {
+        k++;
+    }
+    exact_normal(n, e->face[0]);
+    between(d, e->vertex[0], corner[k]);
+    below = dot64(n, d);
+    /* the test meshes have no edge that is nearly flat, so the sign decides */
+    CHECK(below == 0 || (double)below * (double)below >
+                            1e-8 * (double)dot64(n, n) * (double)dot64(d, d));
+    return below < 0 ? 1 : below > 0 ? -1 : 0;
+}
+
+/*
+ * The edges that bend outwards and the vertices at them are in `own`; the others that bend, and the
+ * vertices at these alone, in `behind`. Each is there once.
  */
 static void check_owned(void)
 {
-    static bool sharp[V_MAX];
+    static bool sharp[V_MAX], bent[V_MAX];
     static uint16_t owner[V_MAX];
-    static uint8_t owners[3 * F_MAX];
 
     memset(sharp, 0, sizeof sharp);
-    memset(owners, 0, sizeof owners);
+    memset(bent, 0, sizeof bent);
     for (uint32_t f = raw.face_count; f-- > 0;) {
         for (int k = 0; k < 3; k++) {
-            uint32_t edge = mesh.faces[f].edge[k];
-
             owner[raw.faces[f][k]] = (uint16_t)f;
-            if (mesh.faces[f].own & 8 << k) {
-                owners[edge]++;
-                CHECK_EQ(mesh.edges[edge].face[0], f);
-            }
         }
     }
     for (uint32_t i = 0; i < mesh.edge_count; i++) {
         const struct carom_edge *e = &mesh.edges[i];
-        bool convex = e->face[1] == CAROM_NO_FACE;
+        int bend = exact_bend(e);
 
-        if (!convex) {
-            const uint16_t *corner = raw.faces[e->face[1]];
-            int64_t n[3], d[3], below;
-            double area;
-            int k = 0;
+        for (int side = 0; side < 2 && e->face[side] != CAROM_NO_FACE; side++) {
+            const struct carom_face *face = &mesh.faces[e->face[side]];
+            int k = face->edge[0] == i ? 3 : face->edge[1] == i ? 4 : 5;
 
-            while (corner[k] == e->vertex[0] || corner[k] == e->vertex[1]) {
-                k++;
-            }
-            exact_normal(n, e->face[0]);
-            between(d, e->vertex[0], corner[k]);
-            below = dot64(n, d);
-            area = (double)dot64(n, n);
-            convex = below < 0;
-            /* the test meshes have no edge that is nearly flat, so the sign decides */
-            CHECK(below == 0 || (double)below * (double)below > 1e-8 * area * (double)dot64(d, d));
+            CHECK_EQ(face->own >> k & 1, side == 0 && bend > 0);
+            CHECK_EQ(face->behind >> k & 1, side == 0 && bend < 0);
         }
-        CHECK_EQ(owners[i], convex);
-        sharp[e->vertex[0]] |= convex;
-        sharp[e->vertex[1]] |= convex;
+        for (int k = 0; k < 2; k++) {
+            sharp[e->vertex[k]] |= bend > 0;
+            bent[e->vertex[k]] |= bend < 0;
+        }
     }
     for (uint32_t f = 0; f < raw.face_count; f++) {
-        CHECK_EQ(mesh.faces[f].own >> 6, 0);
+        CHECK_EQ((mesh.faces[f].own | mesh.faces[f].behind) >> 6, 0);
         for (int k = 0; k < 3; k++) {
             uint16_t v = raw.faces[f][k];
 
             CHECK_EQ(mesh.faces[f].own >> k & 1, sharp[v] && owner[v] == f);
+            CHECK_EQ(mesh.faces[f].behind >> k & 1, bent[v] && !sharp[v] && owner[v] == f);
         }
     }
 }

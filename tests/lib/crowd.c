@@ -214,6 +214,7 @@ int crowd_start(struct crowd *crowd)
     lab_expect(carom_world_init(crowd->block, bytes, &crowd->config, &crowd->world), "world");
     memset(crowd->touching, 0, sizeof crowd->touching);
     memset(crowd->where, CROWD_OVER, sizeof crowd->where);
+    memset(crowd->beside, 0, sizeof crowd->beside);
     for (int i = 0; i < crowd->body_count; i++) {
         struct crowd_body *body = &crowd->bodies[i];
         int result = carom_body_add(crowd->world, &body->def);

@@ -95,11 +95,20 @@ void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass)
     crowd->pass[a][b] = crowd->pass[b][a] = (uint8_t)pass;
 }
 
+/* A bound on the way of a corner in the last frame, unless it was faster in between. */
+static double way_of(const struct crowd *crowd, int body)
+{
+    const struct crowd_body *b = &crowd->bodies[body];
+
+    return real_length(b->before.body.velocity) + real_length(b->now.body.velocity) +
+           2 * crowd->meshes[b->mesh].radius;
+}
+
 /*
  * Which side of a surface a body's first corner is on: over it or under it, as seen along its z, or
- * beside its box.
+ * within a distance of the space beside its box.
  */
-static enum crowd_where where_is(const struct crowd *crowd, int a, int b)
+static enum crowd_where where_is(const struct crowd *crowd, int a, int b, double distance)
 {
     const int16_t(*box)[3] = crowd->bodies[b].def.mesh->box;
     const int bits = crowd->bodies[b].def.mesh->raw.quantum_bits;
@@ -107,7 +116,7 @@ static enum crowd_where where_is(const struct crowd *crowd, int a, int b)
 
     corner_seen_now(at, crowd, a, b);
     for (int k = 0; k < 2; k++) {
-        if (at[k] < real(box[0][k], bits) || at[k] > real(box[1][k], bits)) {
+        if (at[k] < real(box[0][k], bits) + distance || at[k] > real(box[1][k], bits) - distance) {
             return CROWD_BESIDE;
         }
     }
@@ -116,7 +125,10 @@ static enum crowd_where where_is(const struct crowd *crowd, int a, int b)
                                                                                 : CROWD_OVER;
 }
 
-/* A body gets from one side of a surface to the other only beside it. Bodies begin over it. */
+/*
+ * A body gets from one side of a surface to the other only beside it. Bodies begin over it. Once a
+ * body was beside it, it may have gone there and back within a frame.
+ */
 static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int b = 0; b < crowd->body_count; b++) {
@@ -127,7 +139,8 @@ static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
                 crowd->pass[a][b] != CROWD_MEET) {
                 continue;
             }
-            now = where_is(crowd, a, b);
+            now = where_is(crowd, a, b, crowd->beside[a] ? way_of(crowd, a) : 0);
+            crowd->beside[a] |= now == CROWD_BESIDE;
             if (was != CROWD_BESIDE && now != CROWD_BESIDE && now != was) {
                 note_inside(tally, a, b);
             }

@@ -190,11 +190,19 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
     body_place(b, state);
 }
 
+/* The bits of a face's features that are tested: with those behind it if the mesh has two sides. */
+static unsigned tested(const struct shape *s, uint32_t face)
+{
+    const struct carom_face *f = &s->mesh.faces[face];
+
+    return mesh_two_sided(&s->mesh) ? f->own | f->behind : f->own;
+}
+
 bool shape_owns_vertex(const struct shape *s, uint32_t vertex)
 {
     for (uint32_t f = 0; f < s->raw.face_count; f++) {
         for (int k = 0; k < 3; k++) {
-            if (s->faces[f][k] == vertex && s->mesh.faces[f].own >> k & 1) {
+            if (s->faces[f][k] == vertex && tested(s, f) >> k & 1) {
                 return true;
             }
         }
@@ -204,11 +212,23 @@ bool shape_owns_vertex(const struct shape *s, uint32_t vertex)
 
 bool shape_owns_edge(const struct shape *s, uint32_t edge)
 {
-    const struct carom_face *f = &s->mesh.faces[s->mesh.edges[edge].face[0]];
+    const uint32_t face = s->mesh.edges[edge].face[0];
 
     for (int k = 0; k < 3; k++) {
-        if (f->edge[k] == edge) {
-            return f->own >> (3 + k) & 1;
+        if (s->mesh.faces[face].edge[k] == edge) {
+            return tested(s, face) >> (3 + k) & 1;
+        }
+    }
+    return false;
+}
+
+bool shape_is_behind(const struct shape *s, uint32_t edge)
+{
+    const uint32_t face = s->mesh.edges[edge].face[0];
+
+    for (int k = 0; k < 3; k++) {
+        if (s->mesh.faces[face].edge[k] == edge) {
+            return s->mesh.faces[face].behind >> (3 + k) & 1;
         }
     }
     return false;

@@ -28,6 +28,7 @@ void solid_note_owned(struct solid *s)
     }
     for (uint32_t e = 0; e < s->shape->mesh.edge_count; e++) {
         s->own_edge[e] = shape_owns_edge(s->shape, e);
+        s->behind[e] = shape_is_behind(s->shape, e);
     }
 }
 
@@ -232,6 +233,12 @@ static double into_faces(const struct solid *s, const struct carom_edge *edge, c
     return most;
 }
 
+/* The component of n along the sum of the normals of an edge's two faces. */
+static double along_faces(const struct solid *s, const struct carom_edge *edge, const double n[3])
+{
+    return real_dot(n, s->normal[edge->face[0]]) + real_dot(n, s->normal[edge->face[1]]);
+}
+
 bool solid_edge_cones(const struct solid *a, uint32_t i, const struct solid *b, uint32_t j,
                       double tolerance)
 {
@@ -252,7 +259,8 @@ bool solid_edge_cones(const struct solid *a, uint32_t i, const struct solid *b, 
             n[k] = sign * w[k] / length;
             back[k] = -n[k];
         }
-        if (into_faces(b, eb, n) < tolerance && into_faces(a, ea, back) < tolerance) {
+        if (into_faces(b, eb, n) < tolerance && into_faces(a, ea, back) < tolerance &&
+            !(b->behind[j] && (along_faces(b, eb, n) > 0 || along_faces(a, ea, n) > 0))) {
             return true;
         }
     }

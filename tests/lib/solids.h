@@ -22,6 +22,7 @@ struct solid {
     double normal[SHAPE_FACES][3];
     struct solid_bounds vertex[SHAPE_VERTICES], face[SHAPE_FACES], edge[SOLID_EDGES];
     bool own_vertex[SHAPE_VERTICES], own_edge[SOLID_EDGES]; /* the features that the mesh tests */
+    bool behind[SOLID_EDGES]; /* edges that are tested against bodies behind the mesh alone */
 };
 
 /* Note which features a new shape owns. */
@@ -37,7 +38,10 @@ bool solid_edges_near(const struct solid *a, uint32_t i, const struct solid *b, 
 /* Whether no edge of the vertex goes down along n by more than the tolerance, a cosine. */
 bool solid_vertex_cone(const struct solid *s, uint32_t vertex, const double n[3], double tolerance);
 
-/* Whether the normal of two edges, or its opposite, lies in the cones of both. */
+/*
+ * Whether the normal of two edges, or its opposite, lies in the cones of both. If b's edge bends
+ * inwards it must lead behind b and into a, not only within the tolerance.
+ */
 bool solid_edge_cones(const struct solid *a, uint32_t i, const struct solid *b, uint32_t j,
                       double tolerance);
 
