@@ -270,37 +270,64 @@ static void events(void)
     }
 }
 
-/*
- * A body that leaves the world has the energy of the frame's beginning, though hits turned it on the way: its angular momentum turns
- * with it. This rod turns about its length 18 times as easily as across.
- */
-static void leaves_turned(void)
+/* A step whose only body has this velocity and spin, in units and radians a frame. */
+static struct body_state *begin_leaving(struct step *s, int velocity, int spin)
 {
-    struct fix_wide before = {0, 0}, after = {0, 0}, most;
     struct carom_body_def def;
     struct body_state *state;
-    struct step s;
 
     begin();
     boxes_make(ROD, 6 * 64, 64, 64);
     world = boxes_world(0);
     def = boxes_def(ROD, 0, 0, 0);
-    def.spin.c[0] = BOXES_Q40(300);
-    def.spin.c[1] = BOXES_Q40(100);
+    def.spin.c[0] = (int64_t)1 << 40;
+    def.velocity.c[1] = (int64_t)1 << 40;
     CHECK_EQ(boxes_add(world, &def), 0);
-    body_add_kinetic2_of(&before, &world->bodies[0], &world_now(world)->bodies[0]);
-    step_begin(&s, world);
-    state = &s.next->bodies[0];
-    state->rotation =
-        (carom_quat_q30){{759250125, 0, 0, 759250125}}; /* a quarter of a turn about z */
-    state->momentum.c[0] = INT64_C(1) << 60;
+    step_begin(s, world);
+    state = &s->next->bodies[0];
+    state->momentum.c[1] *= velocity;
+    state->angular.c[0] *= spin;
+    return state;
+}
+
+/*
+ * A body that leaves the world keeps the momenta it leaves with, halved together until they are in
+ * range: 200 units a frame become 50, and a spin of 12 becomes 3.
+ */
+static void leaves(void)
+{
+    struct step s;
+    struct body_state *state = begin_leaving(&s, 200, 12);
+    carom_v3_q40 velocity, spin;
+    carom_m3_q30 r;
+
+    state->position.c[2] += 5;
     CHECK(step_retire(&s, 0));
     CHECK(state->out);
-    body_add_kinetic2_of(&after, &world->bodies[0], state);
-    most = fix_wide_down(&before, 26); /* matrices have 30 bits */
-    fix_wide_subtract(&after, &before);
-    CHECK_EQ(fix_wide_sign(&before), 1);
-    CHECK_LESS(carom_abs(fix_wide_shift(&after, 20)), fix_wide_shift(&most, 20));
+    CHECK_EQ(state->position.c[2], world_now(world)->bodies[0].position.c[2] + 5);
+    body_velocity(&world->bodies[0], state, &velocity);
+    fix_matrix(&r, &state->rotation);
+    body_spin(&world->bodies[0], state, &r, &spin);
+    CHECK_NEAR(velocity.c[1], (int64_t)50 << 40, (int64_t)1 << 20);
+    CHECK_NEAR(spin.c[0], (int64_t)3 << 40, (int64_t)1 << 20);
+    CHECK(!step_retire(&s, 0));
+}
+
+/* A body whose place is out of range leaves as it was when the frame began. */
+static void leaves_from(void)
+{
+    struct step s;
+    struct body_state *state = begin_leaving(&s, 2, 2);
+
+    state->position.c[0] = (int64_t)5000 << 32;
+    CHECK(step_retire(&s, 0));
+    CHECK(state->out);
+    CHECK_EQ(
+        memcmp(&state->position, &world_now(world)->bodies[0].position, sizeof state->position), 0);
+    CHECK_EQ(
+        memcmp(&state->momentum, &world_now(world)->bodies[0].momentum, sizeof state->momentum), 0);
+    CHECK_EQ(memcmp(&state->angular, &world_now(world)->bodies[0].angular, sizeof state->angular),
+             0);
 }
 
 /*
@@ -512,7 +539,8 @@ const struct test tests_step[] = {
     {"step/asleep", asleep},
     {"step/again_and_again", again_and_again},
     {"step/events", events},
-    {"step/leaves_turned", leaves_turned},
+    {"step/leaves", leaves},
+    {"step/leaves_from", leaves_from},
     {"step/thrown_out", thrown_out},
     {"step/full_at_the_end", full_at_the_end},
     {"step/no_side", no_side},

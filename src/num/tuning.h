@@ -326,9 +326,9 @@
 #define STEP_JOINT_TURN_Q30 (CAROM_ONE_Q30 / 8)
 /*
  * An island that spins faster, radians a frame, does not go through it as one rigid body. Chosen:
- * some 32 slices. In step/as_one.c.
+ * some 128 slices. In step/as_one.c.
  */
-#define STEP_AS_ONE_SPIN_MAX_Q40 ((int64_t)16 << 40)
+#define STEP_AS_ONE_SPIN_MAX_Q40 ((int64_t)64 << 40)
 /*
  * Momenta are multiplied by 7/8 to 9/8 to change energy by what is owed. Chosen; in step/energy.c.
  */

@@ -56,11 +56,10 @@ static void act_on(struct step *s, uint32_t i)
     for (int k = 0; k < 3; k++) {
         state->angular.c[k] += b->def.extra->torque.c[k];
     }
-    if (!step_retire(s, i)) {
-        after = kinetic2(b, state, &r);
-        fix_wide_add(body_work2(b), &after);
-        fix_wide_subtract(body_work2(b), &before);
-    }
+    (void)step_retire(s, i);
+    after = kinetic2(b, state, &r);
+    fix_wide_add(body_work2(b), &after);
+    fix_wide_subtract(body_work2(b), &before);
 }
 
 void step_act(struct step *s)

@@ -10,6 +10,7 @@
 /* Twice the energies of an island, 80 fractional bits. */
 struct account {
     struct fix_wide before, kinetic; /* of motion, at the start and the end of the frame */
+    struct fix_wide left;   /* of bodies that left the world in the frame; not in kinetic */
     struct fix_wide excess; /* gain over the energy at the start and over what contact may lift */
 };
 
@@ -41,7 +42,7 @@ static bool may_gain(const struct step *s, uint32_t first)
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
-        if (!from->out && !to->out) {
+        if (!from->out) {
             body_add_kinetic2_most(&most, b, to);
             add_lifted2(&most, b, from, to);
         }
@@ -49,10 +50,10 @@ static bool may_gain(const struct step *s, uint32_t first)
     return fix_wide_sign(&most) > 0;
 }
 
-/* Sum up what an island gained. A body that left the world in this frame took its energy along. */
+/* Sum up what an island gained, with the bodies that left the world in this frame. */
 static struct account audit(const struct step *s, uint32_t first)
 {
-    struct account sum = {{0, 0}, {0, 0}, {0, 0}};
+    struct account sum = {{0, 0}, {0, 0}, {0, 0}, {0, 0}};
 
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body *b = &s->w->bodies[i];
@@ -62,13 +63,11 @@ static struct account audit(const struct step *s, uint32_t first)
             continue;
         }
         body_add_kinetic2_of(&sum.before, b, from);
-        if (to->out) {
-            continue;
-        }
-        body_add_kinetic2_of(&sum.kinetic, b, to);
+        body_add_kinetic2_of(to->out ? &sum.left : &sum.kinetic, b, to);
         add_lifted2(&sum.excess, b, from, to);
     }
     fix_wide_add(&sum.excess, &sum.kinetic);
+    fix_wide_add(&sum.excess, &sum.left);
     fix_wide_subtract(&sum.excess, &sum.before);
     if (s->w->joint_steps) {
         s->w->joint_steps->add_springs2(s, first, &sum.excess);
@@ -207,18 +206,44 @@ static bool is_pushed(const struct step *s, uint32_t first)
     return s->w->joint_steps && s->w->joint_steps->led_by(s, first, ISLAND_END) != ISLAND_END;
 }
 
+/* Scale the momenta of the bodies that left the world in this frame. */
+static void scale_left(struct step *s, uint32_t first, int32_t factor)
+{
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
+        struct body_state *state = &s->next->bodies[i];
+
+        for (int k = 0; state->out && !world_now(s->w)->bodies[i].out && k < 3; k++) {
+            state->momentum.c[k] = fix_mul_q30(state->momentum.c[k], factor);
+            state->angular.c[k] = fix_mul_q30(state->angular.c[k], factor);
+        }
+    }
+}
+
+/* Take the slack of rounding from the excess; true if something is left. */
+static bool gains(const struct account *sum)
+{
+    struct fix_wide over = sum->excess, all = sum->kinetic, slack;
+
+    fix_wide_add(&all, &sum->left);
+    slack = fix_wide_down(&all, SLACK_BITS);
+    fix_wide_subtract(&over, &slack);
+    return fix_wide_sign(&over) > 0;
+}
+
 /*
- * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone
+ * Take the excess out of an island's momenta; out of those of bodies that left first. True if it is in the air and its rigid motion alone
  * has more energy than it may have.
  */
 static bool limit_island(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
-    struct fix_wide over = sum.excess, slack = fix_wide_down(&sum.kinetic, SLACK_BITS);
     struct rest_rigid rigid;
 
-    fix_wide_subtract(&over, &slack);
-    if (fix_wide_sign(&over) <= 0) {
+    if (gains(&sum) && fix_wide_sign(&sum.left) > 0) {
+        scale_left(s, first, factor_q30(&sum.left, &sum.excess));
+        sum = audit(s, first);
+    }
+    if (!gains(&sum)) {
         return false;
     }
     if (s->w->bodies[first].clock.grounded) {

@@ -27,34 +27,32 @@ bool step_in_range(const struct body *b, const struct body_state *s)
            world_in_range(b, s);
 }
 
-/* Turn a body to a rotation with its angular momentum: so its energy stays, whatever turned it. */
-static void turn_with(struct body_state *state, const carom_quat_q30 *rotation)
+/* Halve a body's momenta until it is in range, as it is where it is. False if its place is not. */
+static bool slow_down(const struct body *b, struct body_state *state)
 {
-    carom_m3_q30 from, to;
-    int64_t own_q40[3];
+    int halvings = 0;
 
-    if (memcmp(&state->rotation, rotation, sizeof *rotation) != 0) {
-        fix_matrix(&from, &state->rotation);
-        fix_matrix(&to, rotation);
-        fix_rotate_back(own_q40, &from, state->angular.c);
-        fix_rotate(state->angular.c, &to, own_q40);
-        state->rotation = *rotation;
+    while (!world_in_range(b, state) && halvings++ < 64) {
+        for (int k = 0; k < 3; k++) {
+            state->momentum.c[k] /= 2;
+            state->angular.c[k] /= 2;
+        }
     }
+    return halvings <= 64;
 }
 
 bool step_retire(struct step *s, uint32_t i)
 {
     struct carom_world *w = s->w;
-    struct body_state *state = &s->next->bodies[i], last;
+    struct body_state *state = &s->next->bodies[i];
 
     if (!step_active(s, i) || step_in_range(&w->bodies[i], state)) {
         return false;
     }
-    last = world_now(w)->bodies[i];
     /* another body may be by now where it came from */
-    last.position = state->position;
-    turn_with(&last, &state->rotation);
-    *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
+    if (!slow_down(&w->bodies[i], state)) {
+        *state = world_now(w)->bodies[i];
+    }
     state->out = 1;
     w->regions_stale = true;
     return true;
