@@ -9,16 +9,19 @@
 #include "lib/one_world.h"
 #include "lib/shapes.h"
 
-#define CAPS   2, 2, 256, 512, 0, 512
+#define CAPS   2, 2, 256, 512, 512, 512
 #define FRAMES 90
 #define CELLS  4 /* squares along a side of the surface */
 #define HALF   4 /* half side of the surface, units */
+#define COUNT  ((CELLS + 1) * (CELLS + 1))
+#define FACES  (2 * CELLS * CELLS)
 #define FLOOR  0
 #define BOX    1
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape floor_shape, box;
-static struct carom_body_state seen[FRAMES];
+static struct carom_body_state seen[FRAMES], above[FRAMES];
+static _Alignas(8) uint8_t one_sided_block[CAROM_SURFACE_BYTES(COUNT, FACES)];
 
 /* How a box begins, and how it is shaped. */
 struct throw
@@ -43,7 +46,7 @@ static void turn_over(struct shape *s)
  * Throw a box, from above or in the mirror from below. Sets `seen`; returns the frame of the first
  * hit, or FRAMES.
  */
-static int run(const struct throw *t, bool below)
+static int run(const struct throw *t, const struct carom_mesh *floor, bool below)
 {
     const int sign = below ? -1 : 1;
     struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
@@ -53,7 +56,7 @@ static int run(const struct throw *t, bool below)
     memset(&def, 0, sizeof def);
     config.gravity.c[2] = -sign * t->gravity_q40;
     CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
-    def.mesh = &floor_shape.mesh;
+    def.mesh = floor;
     def.stationary = true;
     def.restitution_q30 = t->e_q30;
     def.friction_q16 = 1 << 15;
@@ -120,7 +123,6 @@ static void any_throw(struct throw *t, struct test_random *r, int rough)
  */
 static void check_throws(int rough, uint64_t seed, int throws)
 {
-    static struct carom_body_state above[FRAMES];
     struct test_random r = {seed};
     int hits = 0;
 
@@ -131,10 +133,10 @@ static void check_throws(int rough, uint64_t seed, int throws)
         any_throw(&t, &r, rough);
         shape_box(&box, 12, t.side[0], t.side[1], t.side[2]);
         shape_field(&floor_shape, 12, CELLS, 2 * HALF * 4096 / CELLS, rough, seed + (uint64_t)i);
-        first = run(&t, false);
+        first = run(&t, &floor_shape.mesh, false);
         memcpy(above, seen, sizeof above);
         turn_over(&floor_shape);
-        other = run(&t, true);
+        other = run(&t, &floor_shape.mesh, true);
         CHECK_EQ(other, first);
         for (int frame = 0; frame < FRAMES && frame <= first + 1; frame++) {
             check_mirrored(&above[frame], &seen[frame]);
@@ -159,6 +161,74 @@ static void test_peaks(void)
     check_throws(8000, 3, 40);
 }
 
+/*
+ * A surface whose vertices could move has one side. As long as bodies stay above it, the other side of
+ * one that cannot move changes nothing: shallow hills, whose pits are nearly flat.
+ */
+static void test_above(void)
+{
+    struct test_random r = {4};
+    struct carom_mesh one_sided;
+
+    for (int i = 0; i < 40; i++) {
+        const int rough = i % 2 ? 60 : 1000;
+        struct throw t;
+
+        any_throw(&t, &r, rough);
+        t.gravity_q40 = CAROM_GRAVITY_MM_S2(9810, 60);
+        t.place_q32[0] = t.velocity_q40[0] = t.velocity_q40[1] = 0;
+        shape_box(&box, 12, t.side[0], t.side[1], t.side[2]);
+        shape_field(&floor_shape, 12, CELLS, 2 * HALF * 4096 / CELLS, rough, 100 + (uint64_t)i);
+        CHECK_EQ(carom_surface_build(&one_sided, &floor_shape.raw, one_sided_block,
+                                     sizeof one_sided_block),
+                 CAROM_OK);
+        (void)run(&t, &one_sided, false);
+        memcpy(above, seen, sizeof above);
+        CHECK_LESS(run(&t, &floor_shape.mesh, false), FRAMES);
+        CHECK_EQ(memcmp(seen, above, sizeof seen), 0);
+    }
+}
+
+/*
+ * The upper side of a plate thinner than half of its skin is within reach of the surface, and so is the
+ * lower side of one that hangs below. Neither touches: all contacts have the same normal, and the plate
+ * gets away as fast as it is pushed.
+ */
+static void check_thin(bool below)
+{
+    const int64_t one = (int64_t)1 << 32, speed_q40 = CAROM_RATIO(1, 100, 40);
+    const int sign = below ? -1 : 1;
+    const carom_v3_q40 away = {{0, 0, sign * 3 * speed_q40}};
+    const struct throw t = {.rotation = {{CAROM_ONE_Q30, 0, 0, 0}},
+                            .place_q32 = {-8 * one, 0, 2 * one},
+                            .velocity_q40 = {CAROM_RATIO(16, 100, 40)},
+                            .gravity_q40 = CAROM_GRAVITY_MM_S2(9810, 60)};
+    struct carom_contact contacts[32];
+    carom_v3_q32 centre;
+    int64_t height_q32;
+    int n;
+
+    shape_box(&box, 12, 16000, 16000, 2);
+    shape_plane(&floor_shape, 12, CELLS, 2 * HALF * 4096 / CELLS);
+    CHECK_LESS(run(&t, &floor_shape.mesh, below), FRAMES);
+    n = carom_contacts(world, contacts, 32);
+    CHECK_MORE(n, 2);
+    for (int i = 0; i < n && i < 32; i++) {
+        CHECK_MORE(sign * contacts[i].normal.c[2], 0);
+    }
+    centre = state_of(BOX).position;
+    height_q32 = centre.c[2];
+    CHECK_EQ(carom_body_push(world, BOX, &away, &centre), CAROM_OK);
+    steps(1);
+    CHECK_MORE(sign * (state_of(BOX).position.c[2] - height_q32), 2 * (speed_q40 >> 8));
+}
+
+static void test_thin(void)
+{
+    check_thin(false);
+    check_thin(true);
+}
+
 /* ------------------------------------------------------------------ at rest below */
 
 /*
@@ -177,7 +247,7 @@ static void test_rest(void)
 
     shape_box(&box, 12, 4096, 4096, 2048);
     shape_plane(&floor_shape, 12, CELLS, 2 * HALF * 4096 / CELLS);
-    CHECK_LESS(run(&t, true), FRAMES);
+    CHECK_LESS(run(&t, &floor_shape.mesh, true), FRAMES);
     steps(60);
     n = carom_contacts(world, contacts, 32);
     CHECK_MORE(n, 2);
@@ -194,6 +264,8 @@ const struct test tests_world_under[] = {
     {"world_under/plane", test_plane},
     {"world_under/hills", test_hills},
     {"world_under/peaks", test_peaks},
+    {"world_under/above", test_above},
+    {"world_under/thin", test_thin},
     {"world_under/rest", test_rest},
     {0},
 };

@@ -168,35 +168,46 @@ static void place(const struct moment *m, const struct candidate *c,
 /*
  * Two-sided meshes. The other body's features tell which side a touch is on: N enters them. The far
  * side of a body thinner than the skin would touch, too, as deep as the body is thick. So a touch
- * that is deep counts only on the front, of a body whose centre lies there.
+ * that is deep counts only on the front, and not of a body whose centre is under the surface.
  */
 
-/* True if a touch of a two-sided mesh counts. n is N in its axes, height the centre's along N. */
-static inline bool counts(const struct boyse_touch *touch, int32_t n_z_q30, int64_t height)
+/* True if the centre of the other body is under the two-sided mesh of one body of a view. */
+static bool is_under(const struct moment *m)
 {
-    return touch->gap_q22 >= BOYSE_BEHIND_Q22 || (n_z_q30 > 0 && height > 0);
+    const struct boyse_view *view = m->view;
+    const struct carom_mesh *surface = view->to->def.mesh;
+    carom_v3_q22 centre = {{m->centre_q22[0], m->centre_q22[1], m->centre_q22[2]}};
+
+    if (!mesh_two_sided(surface)) { /* the way from its centre, in its axes, which do not turn */
+        surface = view->from->def.mesh;
+        carom_rotate_back(centre.c, &view->r, centre.c);
+        for (int k = 0; k < 3; k++) {
+            centre.c[k] = -centre.c[k];
+        }
+    }
+    return interfere_under(surface, &centre);
+}
+
+/* True if a touch of a two-sided mesh counts; n_z: the z of N in its axes, or its sign. */
+static bool counts(const struct moment *m, const struct boyse_touch *touch, int32_t n_z)
+{
+    return touch->gap_q22 >= BOYSE_BEHIND_Q22 || (n_z > 0 && !is_under(m));
 }
 
 /* --------------------------------------------------------- a vertex and a face */
 
 /* Judge a vertex over a two-sided face with normal n, in the vertex's mesh axes. */
-static void test_either_side(const struct moment *m, const struct candidate *c,
-                             const struct boyse_places *p, const int32_t n[3],
+static void test_either_side(const struct moment *m, const struct candidate *c, const int32_t n[3],
                              struct boyse_touch *touch)
 {
-    const bool below = mesh_vertex_below(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30);
-    int64_t height = 0; /* of the centre above the vertex */
-
-    for (int k = 0; k < 3; k++) {
-        height += (int64_t)p->n[k] * (m->centre_q22[k] - p->vertex.c[k]);
-    }
-    /* a vertex in a plane of its body is on either side: the centre decides */
-    if (below && (!touch->valid || height < 0)) {
+    /* a vertex in a plane of its body may be on either side */
+    if (mesh_vertex_below(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30) &&
+        (!touch->valid || is_under(m))) {
         touch->valid = true;
         touch->sign = -1;
         touch->gap_q22 = -touch->gap_q22;
     }
-    touch->valid = touch->valid && counts(touch, touch->sign, height);
+    touch->valid = touch->valid && counts(m, touch, touch->sign);
 }
 
 static void test_vertex_face(const struct moment *m, const struct candidate *c,
@@ -211,9 +222,10 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
         direction_back(m, p->n, n);
         touch->valid = mesh_vertex_cone(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30);
         if (mesh_two_sided(m->view->to->def.mesh)) {
-            test_either_side(m, c, p, n, touch);
+            test_either_side(m, c, n, touch);
         } else if (touch->valid && mesh_two_sided(m->view->from->def.mesh)) {
-            touch->valid = counts(touch, -n[2], carom_dot(p->n, p->vertex.c));
+            touch->valid = counts(m, touch, -n[2]) &&
+                           (n[2] > 0 || !mesh_vertex_behind(m->view->from->def.mesh, c->i));
         }
     }
 }
@@ -363,40 +375,32 @@ static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
  * Sign of N, by the way that the faces of both edges look. Nearly flat edges have both signs within
  * the tolerance of their cones. Taken together the two faces of a convex edge look along any N
  * between them, so a sign that only the tolerance allows is rejected. Those of a two-sided mesh may
- * look either way. 0: neither sign is possible.
+ * look either way, but at an edge that bends inwards N leads behind it. 0: neither sign is possible.
  */
 static int sign_of(const struct moment *m, const struct boyse_places *p,
                    const struct edge_normal *n)
 {
+    const struct carom_mesh *of_b = m->view->to->def.mesh;
     struct cones cones = {0, 0, 0, false};
-    int sign;
+    int sign, only = 0;
 
-    add_cones(&cones, m->view->to->def.mesh, p->edge_b, n->on_b, true);
-    if (mesh_two_sided(m->view->to->def.mesh)) {
+    add_cones(&cones, of_b, p->edge_b, n->on_b, true);
+    if (mesh_two_sided(of_b)) {
+        if (mesh_edge_behind(of_b, (uint32_t)(p->edge_b - of_b->edges))) {
+            only = cones.out > 0 ? -1 : 1;
+        }
         cones.out = 0;
         cones.border = false;
     }
     add_cones(&cones, m->view->from->def.mesh, p->edge_a, n->on_a, false);
     sign = cones.out >= 0 ? 1 : -1;
     for (int turn = 0; turn < 2; turn++, sign = -sign) {
-        if ((sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30 &&
+        if (sign != -only && (sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30 &&
             (cones.border || sign * cones.out >= -INTERFERE_CONE_Q30)) {
             return sign;
         }
     }
     return 0;
-}
-
-/* True if a touch of edges counts on the side of b's two-sided mesh where it is. */
-static bool edges_count(const struct moment *m, const struct boyse_places *p,
-                        const struct edge_normal *n, const struct boyse_touch *touch)
-{
-    int64_t height = 0; /* of a's centre above b's edge, along N */
-
-    for (int k = 0; k < 3; k++) {
-        height += (int64_t)n->on_b[k] * (m->centre_q22[k] - p->start_b.c[k]);
-    }
-    return counts(touch, touch->sign * n->on_b[2], touch->sign * height);
 }
 
 /* Exact test of two edges. Returns |w| as it is in P; sets n if the touch is valid. */
@@ -423,7 +427,7 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
     }
     touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
     if (touch->valid && mesh_two_sided(m->view->to->def.mesh)) {
-        touch->valid = edges_count(m, p, n, touch);
+        touch->valid = counts(m, touch, touch->sign * n->on_b[2]);
     }
     return turns ? sine_q30 >> p->up : sine_q30;
 }

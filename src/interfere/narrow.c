@@ -195,8 +195,7 @@ static void edge_edges(struct interfere *in, const struct target *t, int j, uint
 
 void interfere_features(struct interfere *in, struct target *t)
 {
-    uint32_t own = t->face->own,
-             behind = mesh_two_sided(in->b->def.mesh) ? t->face->behind : 0;
+    uint32_t own = t->face->own, behind = mesh_two_sided(in->b->def.mesh) ? t->face->behind : 0;
     uint32_t near = (own | behind) != 0 ? interfere_faces_near(in, t) : 0;
     uint32_t up = near != 0 && behind != 0 ? interfere_faces_up(in, near) : 0;
 

@@ -32,6 +32,31 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
     return true;
 }
 
+/* The flag of an edge in `own` and `behind` of its face 0. */
+static unsigned flag_of(const struct carom_mesh *mesh, uint32_t edge)
+{
+    const struct carom_face *face = &mesh->faces[mesh->edges[edge].face[0]];
+
+    return face->edge[0] == edge ? 8 : face->edge[1] == edge ? 16 : 32;
+}
+
+bool mesh_edge_behind(const struct carom_mesh *mesh, uint32_t edge)
+{
+    return (mesh->faces[mesh->edges[edge].face[0]].behind & flag_of(mesh, edge)) != 0;
+}
+
+bool mesh_vertex_behind(const struct carom_mesh *mesh, uint32_t v)
+{
+    for (uint32_t i = mesh->ring_start[v]; i < mesh->ring_start[v + 1]; i++) {
+        uint32_t edge = mesh->ring[i] >> 1;
+
+        if (mesh->faces[mesh->edges[edge].face[0]].own & flag_of(mesh, edge)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool mesh_vertex_below(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
                        int32_t tolerance_q30)
 {

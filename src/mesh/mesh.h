@@ -202,6 +202,10 @@ inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const in
     return true;
 }
 
+/* True if only a body behind the mesh can touch an edge or a vertex: see `behind` of carom_face. */
+bool mesh_edge_behind(const struct carom_mesh *mesh, uint32_t edge);
+bool mesh_vertex_behind(const struct carom_mesh *mesh, uint32_t v);
+
 /* True if -n lies in the normal cone of a vertex: the body lies below a plane of normal n there. */
 bool mesh_vertex_below(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
                        int32_t tolerance_q30);
