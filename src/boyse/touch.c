@@ -426,7 +426,8 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
         }
     }
     touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
-    if (touch->valid && mesh_two_sided(m->view->to->def.mesh)) {
+    if (touch->valid && touch->gap_q22 < BOYSE_BEHIND_Q22 &&
+        mesh_two_sided(m->view->to->def.mesh)) {
         touch->valid = counts(m, touch, touch->sign * n->on_b[2]);
     }
     return turns ? sine_q30 >> p->up : sine_q30;
