@@ -24,8 +24,9 @@ extern "C" {
 
 /** Kinds of meshes. */
 enum carom_mesh_kind {
-    CAROM_SOLID = 0,  /**< closed and oriented outwards */
-    CAROM_SURFACE = 1 /**< a height field: open, one z over each x, y; stationary; nothing crosses it */
+    CAROM_SOLID = 0, /**< closed and oriented outwards */
+    CAROM_SURFACE =
+        1 /**< a height field: open, one z over each x, y; stationary; nothing crosses it */
 };
 
 /** Triangles over int16 vertices, as the converter or the caller makes them. */

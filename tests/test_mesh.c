@@ -371,8 +371,8 @@ static int exact_bend(const struct carom_edge *e)
     between(d, e->vertex[0], corner[k]);
     below = dot64(n, d);
     /* the test meshes have no edge that is nearly flat, so the sign decides */
-    CHECK(below == 0 || (double)below * (double)below >
-                            1e-8 * (double)dot64(n, n) * (double)dot64(d, d));
+    CHECK(below == 0 ||
+          (double)below * (double)below > 1e-8 * (double)dot64(n, n) * (double)dot64(d, d));
     return below < 0 ? 1 : below > 0 ? -1 : 0;
 }
 

@@ -72,14 +72,13 @@ static bool is_there(struct boyse_pair *pair, const struct candidate *c,
 }
 
 /*
- * Go through the roots until one is a hit. shift_q40 is what was subtracted from P. Sets `far` if a
- * root failed only by its gap.
+ * Go through the roots until one is a hit. shift_q40 is what was subtracted from P; `any`: P may have
+ * any sign where a hit begins. Sets `far` if a root failed only by its gap.
  */
 static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const struct curve *curve,
-                      int64_t shift_q40, struct boyse_hit *hit, bool *far)
+                      int64_t shift_q40, bool any, struct boyse_hit *hit, bool *far)
 {
     struct walk walk;
-    const bool either = boyse_either_side(pair, c);
     int32_t last_root = 0;
 
     *far = false;
@@ -89,13 +88,11 @@ static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const 
         int32_t scale_q30 = 0;
 
         touch.valid = false;
-
-        /* a vertex that leaves through the back of a face is no hit */
-        if (c->kind == CANDIDATE_EDGE_EDGE || either || walk.slope8 < 0) {
+        /* a vertex that moves away from the face on the side of the shifted one is no hit */
+        if (any || shift_q40 == 0 || (walk.slope8 < 0) != (shift_q40 < 0)) {
             scale_q30 = boyse_test(pair, c, walk.t_q30, &touch);
         }
-        touch.valid = touch.valid && touch.sign * walk.slope8 < 0 &&
-                      !(either && touch.sign * shift_q40 < 0); /* that surface is behind it */
+        touch.valid = touch.valid && touch.sign * walk.slope8 < 0;
         *far = *far || (touch.valid && !is_there(pair, c, &touch));
         if (touch.valid && is_there(pair, c, &touch)) {
             bool edges = c->kind == CANDIDATE_EDGE_EDGE;
@@ -133,7 +130,7 @@ static int64_t level_q40(struct boyse_pair *pair, const struct candidate *c)
 }
 
 /*
- * The offset to subtract from P. A frame may end with a gap so small that P has no root on [0, 1], and
+ * The offset to subtract from P; 0 for a point behind the face of a solid. A frame may end with a gap so small that P has no root on [0, 1], and
  * rounding would then commit an overlap: so seek the root of a surface a little nearer. A pair that
  * touches already must not get deeper.
  *
@@ -141,10 +138,16 @@ static int64_t level_q40(struct boyse_pair *pair, const struct candidate *c)
  * they meet change the sign of w together with that of the gap: P only comes near 0, and that must
  * be found.
  */
-static int64_t lower(int64_t gap_q40, int touching, int64_t level)
+static FIX_APART int64_t lower(struct boyse_pair *pair, const struct candidate *c, int64_t gap_q40,
+                               int touching)
 {
-    int64_t size = carom_abs(gap_q40), shift;
+    int64_t size = carom_abs(gap_q40), level, shift;
 
+    if (touching == 0 && gap_q40 <= 0 && c->kind != CANDIDATE_EDGE_EDGE &&
+        !boyse_either_side(pair, c)) {
+        return 0;
+    }
+    level = level_q40(pair, c);
     if (touching != 0) {
         return gap_q40 - touching * (level / BOYSE_TOUCHING_DIVISOR);
     }
@@ -193,7 +196,7 @@ static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct c
                                          struct boyse_hit *hit, uint32_t *roots)
 {
     struct curve curve;
-    int64_t a[BOYSE_DEGREE + 1], shift_q40 = 0;
+    int64_t a[BOYSE_DEGREE + 1], shift_q40;
     int degree = boyse_polynomial(pair, c, a);
     int touching = touches_at_start(pair, c, a[0]);
 
@@ -202,9 +205,7 @@ static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct c
         hit->t_q30 = hit->root_q30 = 0;
         return true;
     }
-    if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0 || boyse_either_side(pair, c)) {
-        shift_q40 = lower(a[0], touching, level_q40(pair, c));
-    }
+    shift_q40 = lower(pair, c, a[0], touching);
     /*
      * Across a convex edge or vertex a point is over no face until it is at the surface. So a root
      * that is no hit is sought again with the surface itself; with levels between if |w| made the
@@ -216,11 +217,12 @@ static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct c
         a[0] -= shift_q40;
         found = curve_init(&curve, a, degree);
         *roots += found && tries == 0;
-        if (found && first_hit(pair, c, &curve, shift_q40, hit, &far)) {
+        if (found && first_hit(pair, c, &curve, shift_q40,
+                               touching != 0 || c->kind == CANDIDATE_EDGE_EDGE, hit, &far)) {
             return true;
         }
         a[0] += shift_q40;
-        if (c->kind != CANDIDATE_EDGE_EDGE && touching * a[0] < 0) {
+        if (touching != 0 && c->kind != CANDIDATE_EDGE_EDGE && (touching < 0 ? -a[0] : a[0]) < 0) {
             /* touches from behind, beside the face: it may come out and go in again */
             shift_q40 = touching * level_q40(pair, c);
             touching = 0;

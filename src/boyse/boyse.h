@@ -97,7 +97,7 @@ struct boyse_pair {
 struct boyse_touch {
     int32_t gap_q22;     /* distance along the normal; negative: they overlap */
     carom_v3_q30 normal; /* N, unit, from b into a; set only if valid */
-    bool valid;  /* true if inside both features, normal in both cones, edges not parallel */
+    bool valid; /* true if inside both features, normal in both cones, edges not parallel */
     /* of edges: N = sign w / |w|; -1 for a vertex behind a two-sided face: N = -n; else 1 */
     int8_t sign;
 };

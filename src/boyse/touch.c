@@ -76,7 +76,7 @@ static void apply_back(const struct turn *turn, int32_t v[3])
 struct moment {
     const struct boyse_view *view;
     struct turn from, to;
-    int32_t centre_q22[3]; /* of from, in axes that do not turn with `to` */
+    carom_v3_q22 centre; /* of from, in axes that do not turn with `to` */
 };
 
 static int32_t set_turns(struct moment *m, const struct boyse_view *view, int32_t t_q30)
@@ -97,7 +97,7 @@ static void set_moment(struct moment *m, const struct boyse_view *view, int32_t 
         /* q24 x q30 = q54: |v t + g t^2| < 2^8 units */
         int64_t way_q54 = (int64_t)view->v.c[k] * t_q30 + (int64_t)view->g.c[k] * t2_q30;
 
-        m->centre_q22[k] = view->centre.c[k] + (int32_t)carom_round(way_q54, 32);
+        m->centre.c[k] = view->centre.c[k] + (int32_t)carom_round(way_q54, 32);
     }
 }
 
@@ -135,7 +135,7 @@ static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
     }
     apply(&m->from, p.c);
     for (int k = 0; k < 3; k++) {
-        p.c[k] += m->centre_q22[k];
+        p.c[k] += m->centre.c[k];
     }
     apply_back(&m->to, p.c);
     return p;
@@ -171,27 +171,26 @@ static void place(const struct moment *m, const struct candidate *c,
  * that is deep counts only on the front, and not of a body whose centre is under the surface.
  */
 
-/* True if the centre of the other body is under the two-sided mesh of one body of a view. */
-static bool is_under(const struct moment *m)
+/*
+ * True if a touch of a two-sided mesh counts; n_z: the z of N in its axes, or its sign; centre: of the
+ * other body, in its axes.
+ */
+static inline bool counts(const struct boyse_touch *touch, int32_t n_z,
+                          const struct carom_mesh *surface, const carom_v3_q22 *centre)
 {
-    const struct boyse_view *view = m->view;
-    const struct carom_mesh *surface = view->to->def.mesh;
-    carom_v3_q22 centre = {{m->centre_q22[0], m->centre_q22[1], m->centre_q22[2]}};
-
-    if (!mesh_two_sided(surface)) { /* the way from its centre, in its axes, which do not turn */
-        surface = view->from->def.mesh;
-        carom_rotate_back(centre.c, &view->r, centre.c);
-        for (int k = 0; k < 3; k++) {
-            centre.c[k] = -centre.c[k];
-        }
-    }
-    return interfere_under(surface, &centre);
+    return touch->gap_q22 >= BOYSE_BEHIND_Q22 || (n_z > 0 && !mesh_under(surface, centre));
 }
 
-/* True if a touch of a two-sided mesh counts; n_z: the z of N in its axes, or its sign. */
-static bool counts(const struct moment *m, const struct boyse_touch *touch, int32_t n_z)
+/* The centre of `to` in the mesh axes of `from`, which does not turn. */
+static carom_v3_q22 centre_back(const struct moment *m)
 {
-    return touch->gap_q22 >= BOYSE_BEHIND_Q22 || (n_z > 0 && !is_under(m));
+    carom_v3_q22 centre;
+
+    carom_rotate_back(centre.c, &m->view->r, m->centre.c);
+    for (int k = 0; k < 3; k++) {
+        centre.c[k] = -centre.c[k];
+    }
+    return centre;
 }
 
 /* --------------------------------------------------------- a vertex and a face */
@@ -202,12 +201,12 @@ static void test_either_side(const struct moment *m, const struct candidate *c, 
 {
     /* a vertex in a plane of its body may be on either side */
     if (mesh_vertex_below(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30) &&
-        (!touch->valid || is_under(m))) {
+        (!touch->valid || mesh_under(m->view->to->def.mesh, &m->centre))) {
         touch->valid = true;
         touch->sign = -1;
         touch->gap_q22 = -touch->gap_q22;
     }
-    touch->valid = touch->valid && counts(m, touch, touch->sign);
+    touch->valid = touch->valid && counts(touch, touch->sign, m->view->to->def.mesh, &m->centre);
 }
 
 static void test_vertex_face(const struct moment *m, const struct candidate *c,
@@ -224,8 +223,11 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
         if (mesh_two_sided(m->view->to->def.mesh)) {
             test_either_side(m, c, n, touch);
         } else if (touch->valid && mesh_two_sided(m->view->from->def.mesh)) {
-            touch->valid = counts(m, touch, -n[2]) &&
-                           (n[2] > 0 || !mesh_vertex_behind(m->view->from->def.mesh, c->i));
+            const struct carom_mesh *surface = m->view->from->def.mesh;
+            const carom_v3_q22 centre = centre_back(m);
+
+            touch->valid = counts(touch, -n[2], surface, &centre) &&
+                           (n[2] > 0 || !mesh_vertex_behind(surface, c->i));
         }
     }
 }
@@ -428,7 +430,7 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
     touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
     if (touch->valid && touch->gap_q22 < BOYSE_BEHIND_Q22 &&
         mesh_two_sided(m->view->to->def.mesh)) {
-        touch->valid = counts(m, touch, touch->sign * n->on_b[2]);
+        touch->valid = counts(touch, touch->sign * n->on_b[2], m->view->to->def.mesh, &m->centre);
     }
     return turns ? sine_q30 >> p->up : sine_q30;
 }
@@ -508,6 +510,6 @@ void boyse_touch_start(const struct boyse_pair *pair, const struct candidate *c,
 
     m.view = boyse_view(pair, c);
     m.from.turns = m.to.turns = false;
-    memcpy(m.centre_q22, m.view->centre.c, sizeof m.centre_q22);
+    m.centre = m.view->centre;
     touch_at(&m, c, &pair->start, touch);
 }

@@ -233,9 +233,6 @@ struct interfere_sure {
 bool interfere_query_sure(struct interfere *in, struct interfere_placed a,
                           struct interfere_placed b, struct interfere_sure *sure);
 
-/* True if a point (from the origin of its mesh) is under a SURFACE that does not move. */
-bool interfere_under(const struct carom_mesh *surface, const carom_v3_q22 *p);
-
 /*
  * True if a's first vertex is inside b, or under b if that is a SURFACE. Precondition: no faces of
  * a and b cross.

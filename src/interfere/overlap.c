@@ -449,11 +449,6 @@ static int winding_at(const struct carom_mesh *mesh, const carom_v3_q22 *p)
     return winding;
 }
 
-bool interfere_under(const struct carom_mesh *surface, const carom_v3_q22 *p)
-{
-    return winding_at(surface, p) > 0;
-}
-
 /* winding_at over all faces, for a mesh whose own z-lists are out of date. */
 static int winding_of_all(const struct carom_mesh *mesh, const carom_v3_q22 *p)
 {

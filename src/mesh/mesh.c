@@ -32,6 +32,25 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
     return true;
 }
 
+bool mesh_under(const struct carom_mesh *mesh, const carom_v3_q22 *p)
+{
+    int to_quanta = 22 - mesh->raw.quantum_bits;
+    int32_t col = ((p->c[0] >> to_quanta) - mesh->grid_x0) >> mesh->grid_shift;
+    int32_t row = ((p->c[1] >> to_quanta) - mesh->grid_y0) >> mesh->grid_shift;
+    const struct carom_zref *r, *end;
+
+    if (col < 0 || col >= mesh->grid_nx || row < 0 || row >= mesh->grid_ny) {
+        return false;
+    }
+    r = &mesh->zrefs[mesh->cell_start[row * mesh->grid_nx + col]];
+    end = &mesh->zrefs[mesh->cell_start[row * mesh->grid_nx + col + 1]];
+    while (r < end && !mesh_over_face(mesh, r->face, p, 0)) {
+        r++;
+    }
+    return r < end && carom_dot(mesh->faces[r->face].normal.c, p->c) <
+                          carom_shl(mesh->faces[r->face].offset_q22, 30);
+}
+
 /* The flag of an edge in `own` and `behind` of its face 0. */
 static unsigned flag_of(const struct carom_mesh *mesh, uint32_t edge)
 {

@@ -202,6 +202,9 @@ inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const in
     return true;
 }
 
+/* True if a point, from the mesh's origin, is under a SURFACE whose vertices do not move. */
+bool mesh_under(const struct carom_mesh *mesh, const carom_v3_q22 *p);
+
 /* True if only a body behind the mesh can touch an edge or a vertex: see `behind` of carom_face. */
 bool mesh_edge_behind(const struct carom_mesh *mesh, uint32_t edge);
 bool mesh_vertex_behind(const struct carom_mesh *mesh, uint32_t v);

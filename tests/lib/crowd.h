@@ -92,7 +92,7 @@ struct crowd {
     bool touching[CROWD_BODIES][CROWD_BODIES]; /* pairs that began to touch and have not ended */
     uint8_t where[CROWD_BODIES]; /* enum crowd_where: which side of the surfaces a body is on */
     bool beside[CROWD_BODIES];   /* bodies that were once beside a surface */
-    double substeps;                           /* sub-steps of the last frame */
+    double substeps;             /* sub-steps of the last frame */
     long look_every; /* frames from one check of crossings to the next; 0: every frame */
     uint8_t pass[CROWD_BODIES][CROWD_BODIES]; /* enum crowd_pass; set by crowd_let_pass */
     struct crowd_link *links;                 /* the caller's; the caller notes the energy that they
