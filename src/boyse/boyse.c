@@ -72,11 +72,11 @@ static bool is_there(struct boyse_pair *pair, const struct candidate *c,
 }
 
 /*
- * Go through the roots until one is a hit. shift_q40 is what was subtracted from P; `any`: P may have
- * any sign where a hit begins. Sets `far` if a root failed only by its gap.
+ * Go through the roots until one is a hit. shift_q40 is what was subtracted from P. Sets `far` if a
+ * root failed only by its gap.
  */
 static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const struct curve *curve,
-                      int64_t shift_q40, bool any, struct boyse_hit *hit, bool *far)
+                      int64_t shift_q40, int touching, struct boyse_hit *hit, bool *far)
 {
     struct walk walk;
     int32_t last_root = 0;
@@ -89,7 +89,8 @@ static bool first_hit(struct boyse_pair *pair, const struct candidate *c, const 
 
         touch.valid = false;
         /* a vertex that moves away from the face on the side of the shifted one is no hit */
-        if (any || shift_q40 == 0 || (walk.slope8 < 0) != (shift_q40 < 0)) {
+        if (touching != 0 || shift_q40 == 0 || c->kind == CANDIDATE_EDGE_EDGE ||
+            (walk.slope8 < 0) != (shift_q40 < 0)) {
             scale_q30 = boyse_test(pair, c, walk.t_q30, &touch);
         }
         touch.valid = touch.valid && touch.sign * walk.slope8 < 0;
@@ -217,8 +218,7 @@ static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct c
         a[0] -= shift_q40;
         found = curve_init(&curve, a, degree);
         *roots += found && tries == 0;
-        if (found && first_hit(pair, c, &curve, shift_q40,
-                               touching != 0 || c->kind == CANDIDATE_EDGE_EDGE, hit, &far)) {
+        if (found && first_hit(pair, c, &curve, shift_q40, touching, hit, &far)) {
             return true;
         }
         a[0] += shift_q40;
