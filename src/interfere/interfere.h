@@ -98,8 +98,9 @@ struct interfere_leaf {
     uint16_t boxed; /* faces whose swept box is set, a bit each */
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
     uint16_t placed; /* faces whose plane is set, a bit each */
-    uint16_t asked;  /* faces of which `up` is known, a bit each */
-    uint16_t up;     /* faces that look up during the span, or whose neighbours do */
+    /* faces that look up during the span, or that own an edge of one that does; set if `asked` */
+    uint16_t up;
+    bool asked;
     struct interfere_plane planes[CAROM_LEAF_FACES];
 };
 

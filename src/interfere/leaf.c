@@ -99,7 +99,8 @@ void interfere_list_faces(struct interfere *in)
     struct interfere_leaf *l = in->leaf;
 
     l->listed = true;
-    l->boxed = l->placed = l->asked = l->up = 0;
+    l->boxed = l->placed = l->up = 0;
+    l->asked = false;
     for (uint32_t i = 0; i < l->leaf->face_count; i++) {
         const uint8_t *corner = interfere_corners(in, i);
 
@@ -136,34 +137,40 @@ void interfere_place_plane(struct interfere *in, uint32_t i)
     plane->below_q18 = offset_q18 - reach_q18;
 }
 
-/* True if a face of a, or one across its edges, may look up along b's z. a is a SOLID. */
-static bool looks_up(const struct interfere *in, uint32_t face)
+/* True if a face of a may look up along b's z at some time of the span. */
+static inline bool looks_up(const struct interfere *in, uint32_t face)
+{
+    return interfere_dot(in->leaf->to_b.c[2], in->a->def.mesh->faces[face].normal.c) >
+           -(in->leaf->cone_q30 >> 2) - 1;
+}
+
+/* True if the leaf's face i, or one across an edge that it owns, may look up. */
+static bool has_up(const struct interfere *in, uint32_t i)
 {
     const struct carom_mesh *ma = in->a->def.mesh;
-    const int32_t *up = in->leaf->to_b.c[2], least_q28 = -(in->leaf->cone_q30 >> 2) - 1;
+    const uint32_t face = interfere_face(in, i);
+    uint32_t own = in->leaf->own_edges[i];
 
-    for (int k = 0; k < 3; k++) {
-        const struct carom_edge *edge = &ma->edges[ma->faces[face].edge[k]];
-
-        for (int side = 0; side < 2; side++) {
-            if (interfere_dot(up, ma->faces[edge->face[side]].normal.c) > least_q28) {
-                return true;
-            }
+    if (looks_up(in, face)) {
+        return true;
+    }
+    for (int k = 0; own != 0; k++, own >>= 1) {
+        if ((own & 1) && looks_up(in, ma->edges[ma->faces[face].edge[k]].face[1])) {
+            return true;
         }
     }
     return false;
 }
 
-uint32_t interfere_faces_up(struct interfere *in, uint32_t faces)
+uint32_t interfere_faces_up(struct interfere *in)
 {
     struct interfere_leaf *l = in->leaf;
-    uint32_t left = faces & ~(uint32_t)l->asked;
 
-    l->asked |= (uint16_t)faces;
-    for (uint32_t i = 0; left != 0; i++, left >>= 1) {
-        if ((left & 1) && looks_up(in, interfere_face(in, i))) {
-            l->up |= (uint16_t)(1u << i);
+    if (!l->asked) {
+        l->asked = true;
+        for (uint32_t i = 0; i < l->leaf->face_count; i++) {
+            l->up |= (uint16_t)(has_up(in, i) ? 1u << i : 0);
         }
     }
-    return faces & l->up;
+    return l->up;
 }

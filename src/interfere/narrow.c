@@ -193,29 +193,33 @@ static void edge_edges(struct interfere *in, const struct target *t, int j, uint
     }
 }
 
-/* The corners and edges of b's face that are tested, as in carom_face. */
-static inline uint32_t tested(const struct interfere *in, const struct target *t)
+/* The corners and edges of b's face that the leaf may touch, as in carom_face. */
+static inline uint32_t tested(struct interfere *in, const struct target *t)
 {
-    return t->face->own | (mesh_two_sided(in->b->def.mesh) ? t->face->behind : 0u);
+    uint32_t own = t->face->own, behind = t->face->behind;
+
+    return behind != 0 && mesh_two_sided(in->b->def.mesh) && interfere_faces_up(in) != 0
+               ? own | behind
+               : own;
 }
 
 /* Those of the leaf's near faces that can touch a feature of b's face: a bit of `tested`. */
-static inline uint32_t faces_for(struct interfere *in, const struct target *t, int bit,
+static inline uint32_t faces_for(const struct interfere *in, const struct target *t, int bit,
                                  uint32_t near)
 {
-    return t->face->own >> bit & 1 ? near : interfere_faces_up(in, near);
+    return t->face->own >> bit & 1 ? near : near & in->leaf->up;
 }
 
 void interfere_features(struct interfere *in, struct target *t)
 {
-    uint32_t near = tested(in, t) != 0 ? interfere_faces_near(in, t) : 0;
+    uint32_t features = tested(in, t), near = features != 0 ? interfere_faces_near(in, t) : 0;
 
     vertices_face(in, t);
     for (int k = 0; near != 0 && k < 3; k++) {
-        if (tested(in, t) >> k & 1) {
+        if (features >> k & 1) {
             face_vertex(in, t, k, faces_for(in, t, k, near));
         }
-        if (tested(in, t) >> (3 + k) & 1) {
+        if (features >> (3 + k) & 1) {
             edge_edges(in, t, k, faces_for(in, t, 3 + k, near));
         }
     }

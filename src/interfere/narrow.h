@@ -91,10 +91,10 @@ void interfere_box_face(struct interfere *in, uint32_t i);
 void interfere_place_plane(struct interfere *in, uint32_t i);
 
 /*
- * Those of the leaf's faces, a bit each, that can touch b's other side: they, or faces across their
- * edges, look up along b's z during the span.
+ * Those of the leaf's faces, a bit each, that can touch b's other side: they, or faces across edges
+ * that they own, look up along b's z during the span. The leaf's faces are listed; a is a SOLID.
  */
-uint32_t interfere_faces_up(struct interfere *in, uint32_t faces);
+uint32_t interfere_faces_up(struct interfere *in);
 
 static inline void interfere_bound(const struct interfere_vec *p, const struct interfere_vec *q,
                                    const struct interfere_vec *r, struct interfere_vec *low,
