@@ -531,6 +531,52 @@ static void test_bumpy(void)
     }
 }
 
+/*
+ * Points over and under a steep field, and beside it, against exact signs: seen along z the point is
+ * left of all sides of one face, and below its plane.
+ */
+static void test_under(void)
+{
+    struct test_random r = {7};
+    int found = 0;
+
+    make_field(8, 100, 300, 3);
+    CHECK_EQ(build(), CAROM_OK);
+    for (int i = 0; i < 4000; i++) {
+        int64_t one = (int64_t)1 << (22 - raw.quantum_bits), low[3], high[3], sum = 0;
+        carom_v3_q22 p;
+        bool under = false;
+
+        for (int k = 0; k < 3; k++) {
+            low[k] = (mesh.box[0][k] - 20) * one;
+            high[k] = (mesh.box[1][k] + 20) * one;
+            p.c[k] = (int32_t)test_random_range(&r, low[k], high[k]);
+        }
+        for (uint32_t f = 0; f < raw.face_count; f++) {
+            bool over = true;
+            int64_t n[3];
+
+            for (int k = 0; k < 3; k++) {
+                const int16_t *a = raw.vertices[raw.faces[f][k]];
+                const int16_t *b = raw.vertices[raw.faces[f][(k + 1) % 3]];
+
+                over = over && (b[0] - a[0]) * (p.c[1] - a[1] * one) >
+                                   (b[1] - a[1]) * (p.c[0] - a[0] * one);
+            }
+            exact_normal(n, f);
+            for (int k = 0; k < 3; k++) {
+                sum = k == 0 ? 0 : sum;
+                sum += n[k] * (p.c[k] - raw.vertices[raw.faces[f][0]][k] * one);
+            }
+            under |= over && sum < 0;
+        }
+        CHECK_EQ(mesh_under(&mesh, &p), under);
+        found += under;
+    }
+    CHECK_MORE(found, 1000);
+    CHECK_LESS(found, 3000);
+}
+
 const struct test tests_mesh[] = {
     {"mesh/arguments", test_arguments},
     {"mesh/bad_faces", test_bad_faces},
@@ -544,5 +590,6 @@ const struct test tests_mesh[] = {
     {"mesh/concave", test_concave},
     {"mesh/blade", test_blade},
     {"mesh/bumpy", test_bumpy},
+    {"mesh/under", test_under},
     {0},
 };

@@ -7,11 +7,11 @@ extern inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v,
                                     const int32_t n_q30[3], int32_t tolerance_q30);
 extern inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v);
 
-bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
-                    int32_t tolerance_q22)
+/* mesh_over_face, seen along an axis, along which the corners may run clockwise. */
+static inline bool over_along(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
+                              int32_t tolerance_q22, int axis, bool clockwise)
 {
-    const int32_t *n = mesh->faces[face].normal.c;
-    const int axis = plane_axis(n), x = fix_next(axis), y = fix_next(x);
+    const int x = fix_next(axis), y = fix_next(x);
     const int32_t reach[2] = {tolerance_q22, tolerance_q22};
     int32_t one = (int32_t)1 << (22 - mesh->raw.quantum_bits);
     int32_t px = p->c[x] + mesh->mass.centre.c[x], py = p->c[y] + mesh->mass.centre.c[y];
@@ -24,7 +24,7 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
         const int32_t edge[2] = {to[x] - from[x], to[y] - from[y]};
         const int32_t off[2] = {px - from[x] * one, py - from[y] * one};
 
-        if (plane_outside(edge, off, reach, n[axis] <= 0)) {
+        if (plane_outside(edge, off, reach, clockwise)) {
             return false;
         }
         from = to;
@@ -44,7 +44,7 @@ bool mesh_under(const struct carom_mesh *mesh, const carom_v3_q22 *p)
     }
     r = &mesh->zrefs[mesh->cell_start[row * mesh->grid_nx + col]];
     end = &mesh->zrefs[mesh->cell_start[row * mesh->grid_nx + col + 1]];
-    while (r < end && !mesh_over_face(mesh, r->face, p, 0)) {
+    while (r < end && !over_along(mesh, r->face, p, 0, 2, false)) {
         r++;
     }
     return r < end && carom_dot(mesh->faces[r->face].normal.c, p->c) <
@@ -82,6 +82,15 @@ bool mesh_vertex_below(const struct carom_mesh *mesh, uint32_t v, const int32_t 
     const int32_t down_q30[3] = {-n_q30[0], -n_q30[1], -n_q30[2]};
 
     return mesh_vertex_cone(mesh, v, down_q30, tolerance_q30);
+}
+
+bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
+                    int32_t tolerance_q22)
+{
+    const int32_t *n = mesh->faces[face].normal.c;
+    const int axis = plane_axis(n);
+
+    return over_along(mesh, face, p, tolerance_q22, axis, n[axis] <= 0);
 }
 
 int64_t mesh_longest(int64_t longest, const int64_t v[3])
