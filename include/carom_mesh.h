@@ -26,7 +26,7 @@ extern "C" {
 enum carom_mesh_kind {
     CAROM_SOLID = 0, /**< closed and oriented outwards */
     CAROM_SURFACE =
-        1 /**< a height field: open, one z over each x, y; stationary; nothing crosses it */
+        1 /**< a height field: open, one z over each x, y; stationary; bodies touch it from both sides */
 };
 
 /** Triangles over int16 vertices, as the converter or the caller makes them. */

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Run random worlds by number and summarise them: tools/soak.py PROGRAM.
 
-PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, with names like 12, m12 and w12: bodies alone, machines, and
-wild machines. Every world is a row of out/soak.csv. The summary is printed and, with --docs, written into docs/soak.md, bodies and
+PROGRAM is build/host/host_soak.elf. It makes worlds of four kinds, with names like 12, u12, m12 and w12: bodies alone, bodies under
+a surface, machines, and wild machines. Every world is a row of out/soak.csv. The summary is printed and, with --docs, written into docs/soak.md, bodies and
 machines each between two comments. With --record its counts are added to those of docs/evidence.md. A world that ends the program,
 or takes too long, gets a row of its own, and the others run without it. For each failing world a line says how to run it alone, frame
 by frame. The exit status is 1 if there is any fault.
@@ -28,8 +28,9 @@ SECONDS = 150  # for a world; its steps may take 60
 CUT_ALLOWED = 0.01  # as a part of all frames
 FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
           "much work", "joint", "sensor", "other hash"]
-KINDS = {"": "bodies", "m": "machines", "w": "wild machines"}
-SHARES = {"": 1, "m": 0.2, "w": 0.02}  # as a part of the number of worlds that was asked for
+KINDS = {"": "bodies", "u": "under a surface", "m": "machines", "w": "wild machines"}
+SHARES = {"": 1, "u": 0.2, "m": 0.2, "w": 0.02}  # as a part of the number of worlds that was asked for
+JOINTED = ("m", "w")
 LOST = "lost"  # the program ended early, or did not end
 COUNTED = ["crosses", "energy", "stands still", "error", LOST, "other hash"]  # over time
 
@@ -169,12 +170,14 @@ def faults_of(rows):
 
 
 def document(by_kind):
-    """Write the page of the two kinds of worlds that were run."""
-    if "" in by_kind:
-        rows, wall = by_kind[""]
-        marked.write(DOCS, "soak", lines_of_table([summary("", rows, wall)]) + faults_of(rows))
+    """Write the page: worlds of bodies, and machines, as far as they were run."""
+    alone = {kind: made for kind, made in by_kind.items() if kind not in JOINTED}
+    if alone:
+        rows = [row for made, _ in alone.values() for row in made]
+        marked.write(DOCS, "soak", lines_of_table([summary(kind, *made) for kind, made in alone.items()]) +
+                     faults_of(rows))
         claims.write()
-    machines = {kind: made for kind, made in by_kind.items() if kind}
+    machines = {kind: made for kind, made in by_kind.items() if kind in JOINTED}
     if machines:
         rows = [row for made, _ in machines.values() for row in made]
         marked.write(DOCS, "machines",
@@ -205,7 +208,7 @@ def main():
     parser.add_argument("--first", type=int, default=1, help="number of the first world")
     parser.add_argument("--count", type=int, default=5000)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--kinds", default="bmw", help="of worlds: bodies, machines, wild ones")
+    parser.add_argument("--kinds", default="bumw", help="of worlds: bodies, under a surface, machines, wild ones")
     parser.add_argument("--docs", action="store_true", help="write the summary into " + DOCS)
     parser.add_argument("--record", action="store_true", help="add the counts to those of docs/evidence.md")
     arguments = parser.parse_args()
@@ -232,7 +235,7 @@ def main():
                              (" (%s)" % row["error"] if row.get("error") else "")))
     for kind, (made, wall) in by_kind.items():
         print_table(summary(kind, made, wall))
-        if kind:
+        if kind in JOINTED:
             print_table(joints(kind, made))
     cut = sum(number(row, "cut") for row in rows)
     frames = sum(number(row, "frames") for row in rows)

@@ -196,8 +196,8 @@ static carom_v3_q22 centre_back(const struct moment *m)
 /* --------------------------------------------------------- a vertex and a face */
 
 /* Judge a vertex over a two-sided face with normal n, in the vertex's mesh axes. */
-static void test_either_side(const struct moment *m, const struct candidate *c, const int32_t n[3],
-                             struct boyse_touch *touch)
+static FIX_OWN_FRAME void test_either_side(const struct moment *m, const struct candidate *c,
+                                           const int32_t n[3], struct boyse_touch *touch)
 {
     /* a vertex in a plane of its body may be on either side */
     if (mesh_vertex_below(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30) &&
@@ -207,6 +207,17 @@ static void test_either_side(const struct moment *m, const struct candidate *c, 
         touch->gap_q22 = -touch->gap_q22;
     }
     touch->valid = touch->valid && counts(touch, touch->sign, m->view->to->def.mesh, &m->centre);
+}
+
+/* True if a touch of a vertex of a two-sided mesh counts. n: the face's normal in the vertex's axes. */
+static FIX_OWN_FRAME bool vertex_counts(const struct moment *m, const struct candidate *c,
+                                        const int32_t n[3], const struct boyse_touch *touch)
+{
+    const struct carom_mesh *surface = m->view->from->def.mesh;
+    const carom_v3_q22 centre = centre_back(m);
+
+    return counts(touch, -n[2], surface, &centre) &&
+           (n[2] > 0 || !mesh_vertex_behind(surface, c->i));
 }
 
 static void test_vertex_face(const struct moment *m, const struct candidate *c,
@@ -223,11 +234,7 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
         if (mesh_two_sided(m->view->to->def.mesh)) {
             test_either_side(m, c, n, touch);
         } else if (touch->valid && mesh_two_sided(m->view->from->def.mesh)) {
-            const struct carom_mesh *surface = m->view->from->def.mesh;
-            const carom_v3_q22 centre = centre_back(m);
-
-            touch->valid = counts(touch, -n[2], surface, &centre) &&
-                           (n[2] > 0 || !mesh_vertex_behind(surface, c->i));
+            touch->valid = vertex_counts(m, c, n, touch);
         }
     }
 }
