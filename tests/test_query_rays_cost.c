@@ -121,7 +121,7 @@ static void test_swept(void)
                        (unsigned long)met, SWEEPS);
         }
         CHECK_MORE(met, 0);
-        CHECK_BAR(sum / SWEEPS, 60000);
+        CHECK_BAR(sum / SWEEPS, 61500);
     }
 }
 

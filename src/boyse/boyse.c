@@ -131,9 +131,9 @@ static int64_t level_q40(struct boyse_pair *pair, const struct candidate *c)
 }
 
 /*
- * The offset to subtract from P; 0 for a point behind the face of a solid. A frame may end with a gap so small that P has no root on [0, 1], and
- * rounding would then commit an overlap: so seek the root of a surface a little nearer. A pair that
- * touches already must not get deeper.
+ * The offset to subtract from P; 0 for a point behind the face of a solid. A frame may end with a gap
+ * so small that P has no root on [0, 1], and rounding would then commit an overlap: so seek the root
+ * of a surface a little nearer. A pair that touches already must not get deeper.
  *
  * For a pair that starts close subtract at most half of its gap. Edges that are parallel just when
  * they meet change the sign of w together with that of the gap: P only comes near 0, and that must

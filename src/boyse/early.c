@@ -109,6 +109,7 @@ static bool vertex_may_meet(const struct boyse_pair *pair, const struct candidat
     rate_q20 = dot(n, velocity.c, 30);
     bend_q20 = (view->seen.bend_q22 >> 2) + BEND_SLACK_Q20;
     if (gap_q20 < -below_q20 && mesh_two_sided(mesh)) {
+        /* it may hit the other side */
         if (stays_above(-gap_q20, -rate_q20, bend_q20, NEAR_Q20)) {
             return false;
         }

@@ -66,14 +66,18 @@ bool mesh_edge_behind(const struct carom_mesh *mesh, uint32_t edge)
 
 bool mesh_vertex_behind(const struct carom_mesh *mesh, uint32_t v)
 {
+    unsigned bent = 0;
+
     for (uint32_t i = mesh->ring_start[v]; i < mesh->ring_start[v + 1]; i++) {
         uint32_t edge = mesh->ring[i] >> 1;
+        const struct carom_face *face = &mesh->faces[mesh->edges[edge].face[0]];
 
-        if (mesh->faces[mesh->edges[edge].face[0]].own & flag_of(mesh, edge)) {
+        if (face->own & flag_of(mesh, edge)) {
             return false;
         }
+        bent |= face->behind & flag_of(mesh, edge);
     }
-    return true;
+    return bent != 0;
 }
 
 bool mesh_vertex_below(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],

@@ -222,18 +222,6 @@ bool shape_owns_edge(const struct shape *s, uint32_t edge)
     return false;
 }
 
-bool shape_is_behind(const struct shape *s, uint32_t edge)
-{
-    const uint32_t face = s->mesh.edges[edge].face[0];
-
-    for (int k = 0; k < 3; k++) {
-        if (s->mesh.faces[face].edge[k] == edge) {
-            return s->mesh.faces[face].behind >> (3 + k) & 1;
-        }
-    }
-    return false;
-}
-
 uint32_t shape_candidates(const struct shape *a, const struct shape *b, uint16_t pair,
                           struct candidate *out, uint32_t max)
 {

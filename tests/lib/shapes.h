@@ -52,11 +52,10 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
 
 /*
  * Whether a vertex or an edge of the mesh is tested: a convex one, and of a mesh with two sides one
- * that bends the other way. shape_is_behind: whether an edge is such a one.
+ * that bends the other way.
  */
 bool shape_owns_vertex(const struct shape *s, uint32_t vertex);
 bool shape_owns_edge(const struct shape *s, uint32_t edge);
-bool shape_is_behind(const struct shape *s, uint32_t edge);
 
 /*
  * Every vertex with every face, and every edge with every edge, of a pair of shapes, sorted: what

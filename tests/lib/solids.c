@@ -28,7 +28,7 @@ void solid_note_owned(struct solid *s)
     }
     for (uint32_t e = 0; e < s->shape->mesh.edge_count; e++) {
         s->own_edge[e] = shape_owns_edge(s->shape, e);
-        s->behind[e] = shape_is_behind(s->shape, e);
+        s->behind[e] = mesh_edge_behind(&s->shape->mesh, e);
     }
 }
 
