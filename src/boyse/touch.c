@@ -184,7 +184,7 @@ static inline bool counts(const struct boyse_touch *touch, int32_t n_z,
 /* The centre of `to` in the mesh axes of `from`, which does not turn. */
 static carom_v3_q22 centre_back(const struct moment *m)
 {
-    carom_v3_q22 centre;
+    carom_v3_q22 centre = {{0, 0, 0}};
 
     carom_rotate_back(centre.c, &m->view->r, m->centre.c);
     for (int k = 0; k < 3; k++) {
