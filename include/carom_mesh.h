@@ -24,9 +24,8 @@ extern "C" {
 
 /** Kinds of meshes. */
 enum carom_mesh_kind {
-    CAROM_SOLID = 0, /**< closed and oriented outwards */
-    CAROM_SURFACE =
-        1 /**< a height field: open, one z over each x, y; stationary; bodies touch it from both sides */
+    CAROM_SOLID = 0,  /**< closed and oriented outwards */
+    CAROM_SURFACE = 1 /**< a height field: open, one z over each x, y; stationary */
 };
 
 /** Triangles over int16 vertices, as the converter or the caller makes them. */
@@ -223,6 +222,8 @@ int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, 
 
 /**
  * Build a SURFACE whose vertices may move while it is in a world: carom_surface_move().
+ *
+ * It stops bodies from above only; one of carom_mesh_build() stops them from both sides.
  *
  * @param[out] mesh  must stay where it is; for one body of one world
  * @param raw        its vertices are copied; its faces must outlive the mesh

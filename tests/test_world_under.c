@@ -24,8 +24,7 @@ static struct carom_body_state seen[FRAMES], above[FRAMES];
 static _Alignas(8) uint8_t one_sided_block[CAROM_SURFACE_BYTES(COUNT, FACES)];
 
 /* How a box begins, and how it is shaped. */
-struct throw
-{
+struct launch {
     carom_quat_q30 rotation;
     int64_t place_q32[3], velocity_q40[3], spin_q40[3];
     int side[3];
@@ -46,7 +45,7 @@ static void turn_over(struct shape *s)
  * Throw a box, from above or in the mirror from below. Sets `seen`; returns the frame of the first
  * hit, or FRAMES.
  */
-static int run(const struct throw *t, const struct carom_mesh *floor, bool below)
+static int run(const struct launch *t, const struct carom_mesh *floor, bool below)
 {
     const int sign = below ? -1 : 1;
     struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
@@ -96,7 +95,7 @@ static void check_mirrored(const struct carom_body_state *a, const struct carom_
 }
 
 /* Begin beside the surface, higher than its hills, and move to a point of it. */
-static void any_throw(struct throw *t, struct test_random *r, int rough)
+static void any_throw(struct launch *t, struct test_random *r, int rough)
 {
     const int64_t frames = test_random_range(r, 4, 40);
 
@@ -127,7 +126,7 @@ static void check_throws(int rough, uint64_t seed, int throws)
     int hits = 0;
 
     for (int i = 0; i < throws; i++) {
-        struct throw t;
+        struct launch t;
         int first, other;
 
         any_throw(&t, &r, rough);
@@ -172,7 +171,7 @@ static void test_above(void)
 
     for (int i = 0; i < 40; i++) {
         const int rough = i % 2 ? 60 : 1000;
-        struct throw t;
+        struct launch t;
 
         any_throw(&t, &r, rough);
         t.gravity_q40 = CAROM_GRAVITY_MM_S2(9810, 60);
@@ -189,6 +188,15 @@ static void test_above(void)
     }
 }
 
+/* From 2 units above the surface and x units along it, level, at a speed along x: it falls on the surface. */
+static struct launch level(int x, int64_t speed_q40)
+{
+    return (struct launch){.rotation = {{CAROM_ONE_Q30, 0, 0, 0}},
+                           .place_q32 = {x * ((int64_t)1 << 32), 0, (int64_t)2 << 32},
+                           .velocity_q40 = {speed_q40},
+                           .gravity_q40 = CAROM_GRAVITY_MM_S2(9810, 60)};
+}
+
 /*
  * The upper side of a plate thinner than half of its skin is within reach of the surface, and so is the
  * lower side of one that hangs below. Neither touches: all contacts have the same normal, and the plate
@@ -196,13 +204,10 @@ static void test_above(void)
  */
 static void check_thin(bool below)
 {
-    const int64_t one = (int64_t)1 << 32, speed_q40 = CAROM_RATIO(1, 100, 40);
+    const int64_t speed_q40 = CAROM_RATIO(1, 100, 40);
     const int sign = below ? -1 : 1;
     const carom_v3_q40 away = {{0, 0, sign * 3 * speed_q40}};
-    const struct throw t = {.rotation = {{CAROM_ONE_Q30, 0, 0, 0}},
-                            .place_q32 = {-8 * one, 0, 2 * one},
-                            .velocity_q40 = {CAROM_RATIO(16, 100, 40)},
-                            .gravity_q40 = CAROM_GRAVITY_MM_S2(9810, 60)};
+    const struct launch t = level(-8, CAROM_RATIO(16, 100, 40));
     struct carom_contact contacts[32];
     carom_v3_q32 centre;
     int64_t height_q32;
@@ -238,10 +243,7 @@ static void test_thin(void)
 static void test_rest(void)
 {
     const int64_t one = (int64_t)1 << 32;
-    const struct throw t = {.rotation = {{CAROM_ONE_Q30, 0, 0, 0}},
-                            .place_q32 = {-5 * one, 0, 2 * one},
-                            .velocity_q40 = {CAROM_RATIO(6, 100, 40)},
-                            .gravity_q40 = CAROM_GRAVITY_MM_S2(9810, 60)};
+    const struct launch t = level(-5, CAROM_RATIO(6, 100, 40));
     struct carom_contact contacts[32];
     int n;
 

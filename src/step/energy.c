@@ -231,8 +231,8 @@ static bool gains(const struct account *sum)
 }
 
 /*
- * Take the excess out of an island's momenta; out of those of bodies that left first. True if it is in the air and its rigid motion alone
- * has more energy than it may have.
+ * Take the excess out of an island's momenta; out of those of bodies that left first. True if it is in
+ * the air and its rigid motion alone has more energy than it may have.
  */
 static bool limit_island(struct step *s, uint32_t first)
 {
