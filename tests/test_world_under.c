@@ -102,13 +102,13 @@ static void any_throw(struct launch *t, struct test_random *r, int rough)
     memset(t, 0, sizeof *t);
     t->rotation = shape_random_turn(r);
     t->place_q32[0] = -((int64_t)(HALF + 2) << 32);
-    t->place_q32[1] = test_random_range(r, -2, 2) << 32;
+    t->place_q32[1] = test_random_range(r, -2, 2) * ((int64_t)1 << 32);
     t->place_q32[2] = ((int64_t)2 << 32) + ((int64_t)rough << 20);
     for (int k = 0; k < 3; k++) {
         int64_t to_q32 =
             k == 2 ? 0 : test_random_range(r, -3 * ((int64_t)1 << 32), 3 * ((int64_t)1 << 32));
 
-        t->velocity_q40[k] = ((to_q32 - t->place_q32[k]) << 8) / frames;
+        t->velocity_q40[k] = (to_q32 - t->place_q32[k]) * 256 / frames;
         t->spin_q40[k] = test_random_range(r, -((int64_t)1 << 38), (int64_t)1 << 38);
         t->side[k] = (int)test_random_range(r, 40, 6000);
     }

@@ -98,6 +98,7 @@ pub struct carom_face {
     pub offset_q22: i32,
     pub edge: [u32; 3usize],
     pub own: u8,
+    pub behind: u8,
 }
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
