@@ -32,9 +32,6 @@ static void step(int frames)
     }
 }
 
-/* A skin of the box: its radius, 0.573, over 2048, is 2^-11.8. */
-#define SKIN (UNIT >> 12)
-
 /* A body hangs at rest: the joint carries its weight, and it moves by rounding only. */
 static void test_hangs(void)
 {

@@ -94,6 +94,47 @@ static void test_light_between(void)
     CHECK_LESS(carom_abs(state_of(heavy).position.c[2] + UNIT), UNIT >> 12);
 }
 
+/*
+ * A hinge and a fixed joint hold the same two bodies, so rows repeat each other: their solution is
+ * not unique. The bodies fly as one. No joint pushes more than the motion asks for, which is some part of the
+ * momentum; impulses that cancel each other would grow, and rounding would turn the bodies.
+ */
+static void test_twice(void)
+{
+    struct test_random r = {19};
+
+    for (int n = 0; n < (TEST_BARS ? 4 : 60); n++) {
+        struct carom_joint_def j;
+        int a, b;
+
+        setup(0);
+        a = add(0, 0, 0);
+        def.mass_q20 = (uint32_t)1 << test_random_range(&r, 14, 20);
+        def.rotation = shape_random_turn(&r);
+        for (int k = 0; k < 3; k++) {
+            def.velocity.c[k] = test_random_range(&r, -ONE / 1024, ONE / 1024);
+            def.spin.c[k] = test_random_range(&r, -ONE / 1024, ONE / 1024);
+        }
+        b = add(test_random_range(&r, -UNIT, UNIT), test_random_range(&r, -UNIT, UNIT),
+                test_random_range(&r, UNIT, 2 * UNIT));
+        for (int i = 0; i < 2; i++) {
+            j = joint(i == 0 ? CAROM_JOINT_HINGE : CAROM_JOINT_FIXED, b, a,
+                      test_random_range(&r, -UNIT, UNIT), test_random_range(&r, -UNIT, UNIT),
+                      test_random_range(&r, 0, UNIT));
+            CHECK_EQ(carom_joint_add(world, &j), i);
+        }
+        for (int i = 0; i < 60; i++) {
+            steps(1);
+            for (int k = 0; k < 3; k++) {
+                CHECK_LESS(carom_abs(joint_of(0).impulse.c[k]), ONE / 64);
+                CHECK_LESS(carom_abs(joint_of(1).impulse.c[k]), ONE / 64);
+            }
+        }
+        CHECK_LESS(apart(0), SKIN);
+        CHECK_LESS(apart(1), SKIN);
+    }
+}
+
 /* A velocity, q40, in units of 2^10, is at most 2^27 of them, however large it is. */
 static void test_units(void)
 {
@@ -118,6 +159,7 @@ const struct test tests_solve_joint_hold[] = {
     {"solve_joint_hold/rope", test_rope},
     {"solve_joint_hold/break_owes_nothing", test_break_owes_nothing},
     {"solve_joint_hold/light_between", test_light_between},
+    {"solve_joint_hold/twice", test_twice},
     {"solve_joint_hold/units", test_units},
     {0},
 };

@@ -404,8 +404,58 @@ static void test_frame(void)
     }
 }
 
+/*
+ * The turn of an island about its centre is scaled: velocities against the common one, P over the mass, and spins. The momentum stays to
+ * the last bit.
+ */
+static void test_turn(void)
+{
+    struct test_random r = {32};
+
+    for (int n = 0; n < (TEST_BARS ? 20 : 400); n++) {
+        const uint32_t count = n % 2 ? 3 : 2;
+        const int32_t factor_q30 = (int32_t)test_random_range(&r, 0, CAROM_ONE_Q30);
+        double factor = real(factor_q30, 30), all = 0, common[3] = {0}, v[4][3], w[4][3];
+        struct rest_rigid motion;
+        struct sums before;
+
+        make_island(&r, count, n);
+        before = sums_of(count);
+        for (uint32_t i = 1; i <= count; i++) {
+            double m = real(hand.bodies[i].def.mass.m, hand.bodies[i].def.mass.e);
+
+            hand_velocity_of((int)i, v[i], w[i]);
+            all += m;
+            for (int k = 0; k < 3; k++) {
+                common[k] += m * v[i][k];
+            }
+        }
+        CHECK(rest_rigid_motion(&hand.rest, 1, &motion));
+        memset(&motion.spin, 0, sizeof motion.spin);
+        rest_scale_turn(&hand.rest, &motion, factor_q30);
+        for (int k = 0; k < 3; k++) {
+            CHECK_EQ(sums_of(count).linear[k], before.linear[k]);
+        }
+        for (uint32_t i = 1; i <= count; i++) {
+            double after[3], spin[3];
+
+            hand_velocity_of((int)i, after, spin);
+            for (int k = 0; k < 3; k++) {
+                double x = common[k] / all;
+
+                CHECK_LESS(real_abs(after[k] - x - factor * (v[i][k] - x)), 1e-7);
+                CHECK_LESS(real_abs(spin[k] - factor * w[i][k]), 1e-7);
+            }
+        }
+    }
+}
+
 const struct test tests_solve_rest_unite[] = {
-    {"solve_rest_unite/pair", test_pair},     {"solve_rest_unite/grounded", test_grounded},
-    {"solve_rest_unite/random", test_random}, {"solve_rest_unite/line", test_line},
-    {"solve_rest_unite/frame", test_frame},   {0},
+    {"solve_rest_unite/pair", test_pair},
+    {"solve_rest_unite/grounded", test_grounded},
+    {"solve_rest_unite/random", test_random},
+    {"solve_rest_unite/line", test_line},
+    {"solve_rest_unite/frame", test_frame},
+    {"solve_rest_unite/turn", test_turn},
+    {0},
 };

@@ -11,11 +11,17 @@
 #include "joint_parts.h"
 
 /*
- * A pivot below this is rounding: the row repeats rows before it, as in loops or two joints between
+ * A pivot that may be rounding: the row repeats rows before it, as in loops or two joints between
  * the same bodies. It gets no impulse of its own; dividing by such a pivot would give impulses
  * without measure.
+ *
+ * Below PIVOT_MIN_Q60 a pivot is rounding. A row that is rows before it times y has a pivot of y^T E y,
+ * E being what rounding changed in A: at most 2^-PIVOT_NOISE_BITS times the square of the sum of |y| and
+ * 1. A pivot above PIVOT_SURE_Q60 is sure without y.
  */
-#define PIVOT_MIN_Q60 ((int64_t)1 << (60 - 24))
+#define PIVOT_MIN_Q60    ((int64_t)1 << (60 - 24))
+#define PIVOT_NOISE_BITS 28
+#define PIVOT_SURE_Q60   ((int64_t)1 << (60 - 10))
 /*
  * The square of the length of a row of C, which is at most 1 but for rounding. Where A is far from
  * what it should be, as bodies spin many times a frame, entries beyond this are left out: two rows
@@ -88,6 +94,39 @@ static int64_t product_q60(const struct rest *r, const struct joint_row *i,
     return sum;
 }
 
+/* Row i of C^T x = z, x in place of z; the rows after it are done. */
+static inline void substitute_back(struct rest *r, uint32_t i)
+{
+    struct joint_row *rows = r->joints.rows;
+    const int32_t *c = &r->joints.room[rows[i].start];
+
+    rows[i].x = fix_mul_scaled(rows[i].x, rows[i].inverse);
+    for (uint32_t k = rows[i].first; k < i; k++) {
+        rows[k].x -= fix_mul_q30(rows[i].x, *c++);
+    }
+}
+
+/* True if the pivot of the row at a place is but rounding; the row's other entries of C are set. */
+static bool is_noise(struct rest *r, uint32_t place, int64_t pivot_q60)
+{
+    struct joint_row *rows = r->joints.rows;
+    const struct joint_row *row = &rows[place];
+    int64_t sum_q30 = CAROM_ONE_Q30, most_q30;
+
+    if (pivot_q60 <= PIVOT_MIN_Q60 || pivot_q60 > PIVOT_SURE_Q60) {
+        return pivot_q60 <= PIVOT_MIN_Q60;
+    }
+    most_q30 = carom_shl(fix_sqrt((uint64_t)pivot_q60), PIVOT_NOISE_BITS / 2);
+    for (uint32_t n = 0; n < place; n++) {
+        rows[n].x = n < row->first ? 0 : r->joints.room[row->start + n - row->first];
+    }
+    for (uint32_t n = place; n-- > 0 && sum_q30 <= most_q30;) {
+        substitute_back(r, n);
+        sum_q30 += carom_abs(rows[n].x);
+    }
+    return sum_q30 > most_q30;
+}
+
 /* Factor row i of joint j; the rows before it are done. */
 static void factor_row(struct rest *r, const struct joint *j, int i)
 {
@@ -126,7 +165,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
     pivot_q60 = carom_shl(rest_within(joint_entry_q30(work, i, work, i), INT32_MAX), 30) -
                 (int64_t)length2_q60;
     row->inverse = (struct fix_scaled){0, 0};
-    if (pivot_q60 > PIVOT_MIN_Q60) {
+    if (!is_noise(r, place, pivot_q60)) {
         row->inverse = fix_scaled_inverse(fix_scale((int64_t)fix_sqrt((uint64_t)pivot_q60), 30));
     }
 }
@@ -159,12 +198,7 @@ static void substitute(struct rest *r, uint32_t n)
         rows[i].x = fix_mul_scaled(sum, rows[i].inverse);
     }
     for (uint32_t i = n; i-- > 0;) {
-        const int32_t *c = &r->joints.room[rows[i].start];
-
-        rows[i].x = fix_mul_scaled(rows[i].x, rows[i].inverse);
-        for (uint32_t k = rows[i].first; k < i; k++) {
-            rows[k].x -= fix_mul_q30(rows[i].x, *c++);
-        }
+        substitute_back(r, i);
     }
 }
 

@@ -282,18 +282,37 @@ static void scale_about(struct body_state *to, const struct body_state *from, in
     }
 }
 
-/* Give a heavy body what rounding took of the momenta. */
-static void make_up(struct rest *r, const struct rest_rigid *rigid, const struct momenta *before)
+/* Give a heavy body what rounding took of the momentum. */
+static void make_up_momentum(struct rest *r, const struct rest_rigid *rigid,
+                             const struct momenta *before)
 {
-    struct body_state *heavy = &r->states[rigid->heavy];
     struct momenta rest = lost(r, rigid, before);
 
     for (int k = 0; k < 3; k++) {
-        heavy->momentum.c[k] += fix_wide_shift(&rest.linear_q40[k], 0);
+        r->states[rigid->heavy].momentum.c[k] += fix_wide_shift(&rest.linear_q40[k], 0);
     }
+}
+
+/* The same of both momenta. */
+static void make_up(struct rest *r, const struct rest_rigid *rigid, const struct momenta *before)
+{
+    struct momenta rest;
+
+    make_up_momentum(r, rigid, before);
     rest = lost(r, rigid, before);
     for (int k = 0; k < 3; k++) {
-        heavy->angular.c[k] += carom_round(fix_wide_shift(&rest.angular_q72[k], 31), 1);
+        r->states[rigid->heavy].angular.c[k] +=
+            carom_round(fix_wide_shift(&rest.angular_q72[k], 31), 1);
+    }
+}
+
+/* Scale an island's motion relative to a rigid one. */
+static void scale_relative(struct rest *r, const struct rest_rigid *rigid, int32_t factor_q30)
+{
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        struct body_state state = rest_rigid_state(r, rigid, i);
+
+        scale_about(&r->states[i], &state, factor_q30);
     }
 }
 
@@ -301,12 +320,16 @@ void rest_scale_free(struct rest *r, const struct rest_rigid *rigid, int32_t fac
 {
     struct momenta before = sum_momenta(r, rigid);
 
-    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
-        struct body_state state = rest_rigid_state(r, rigid, i);
-
-        scale_about(&r->states[i], &state, factor_q30);
-    }
+    scale_relative(r, rigid, factor_q30);
     make_up(r, rigid, &before);
+}
+
+void rest_scale_turn(struct rest *r, const struct rest_rigid *common, int32_t factor_q30)
+{
+    struct momenta before = sum_momenta(r, common);
+
+    scale_relative(r, common, factor_q30);
+    make_up_momentum(r, common, &before);
 }
 
 void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30)

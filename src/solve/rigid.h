@@ -39,6 +39,12 @@ struct body_state rest_rigid_state(const struct rest *r, const struct rest_rigid
  */
 void rest_scale_free(struct rest *r, const struct rest_rigid *rigid, int32_t factor_q30);
 
+/*
+ * The same relative to a rigid motion without spin: the island keeps its momentum, and its angular
+ * momentum is scaled.
+ */
+void rest_scale_turn(struct rest *r, const struct rest_rigid *common, int32_t factor_q30);
+
 /* The same for an island that touches a stationary body: it has no motion to keep. */
 void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30);
 

@@ -165,13 +165,13 @@ static FIX_OWN_FRAME bool may_go(struct step *s, uint32_t first, struct rest_rig
            is_clear(s, rigid);
 }
 
-void step_go_as_one(struct step *s, uint32_t first)
+bool step_go_as_one(struct step *s, uint32_t first)
 {
     struct carom_world *w = s->w;
     struct rest_rigid rigid;
 
     if (!may_go(s, first, &rigid)) {
-        return;
+        return false;
     }
     for (uint32_t i = first; i != ISLAND_END; i = w->bodies[i].island.next) {
         struct body_state *state = &s->next->bodies[i];
@@ -184,4 +184,5 @@ void step_go_as_one(struct step *s, uint32_t first)
     rest_go_rigid(&w->rest, &rigid, &w->bodies[first].def.acceleration);
     w->stats.calmed++;
     w->regions_stale = true; /* its path did not stay in its regions */
+    return true;
 }

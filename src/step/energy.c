@@ -371,6 +371,25 @@ static bool limit_touched(struct step *s, uint32_t first, bool surely)
     return (surely || may_gain(s, first)) && limit_island(s, first);
 }
 
+/*
+ * The very last resort for an island in the air: its turn about its centre gives what is left of the
+ * excess. So it loses angular momentum; a gain of energy could go on growing.
+ */
+static void slow_turn(struct step *s, uint32_t first)
+{
+    struct account sum = audit(s, first);
+    struct rest_rigid common;
+    struct fix_wide turn;
+
+    if (!gains(&sum) || !rest_rigid_motion(&s->w->rest, first, &common)) {
+        return;
+    }
+    memset(&common.spin, 0, sizeof common.spin);
+    turn = beside2(s, &common, &sum.kinetic);
+    rest_scale_turn(&s->w->rest, &common, factor_q30(&turn, &sum.excess));
+    s->w->stats.calmed++;
+}
+
 /* The rule of an island: joints alone conserve, contact may not add. */
 static void limit(struct step *s, uint32_t first)
 {
@@ -384,8 +403,8 @@ static void limit(struct step *s, uint32_t first)
         }
         return;
     }
-    if (limit_touched(s, first, owed != NULL)) {
-        step_go_as_one(s, first);
+    if (limit_touched(s, first, owed != NULL) && !step_go_as_one(s, first)) {
+        slow_turn(s, first);
     }
     if (owed) {
         *owed = (struct fix_wide){0, 0};

@@ -274,10 +274,10 @@ int step_note_touching(struct step *s, const struct pair *p);
 void step_limit_energy(struct step *s);
 /*
  * Undo the frame for an island in the air and move it as one rigid body. But for rounding it then
- * has no more energy than before. Nothing changes if a body of it slept or falls otherwise than the
- * others, if it turns too fast, or if another body is near.
+ * has no more energy than before. False, and nothing changes, if a body of it slept or falls
+ * otherwise than the others, if it turns too fast, or if another body is near.
  */
-void step_go_as_one(struct step *s, uint32_t first);
+bool step_go_as_one(struct step *s, uint32_t first);
 
 /* ---------------------------------------------------------------- kinematic bodies */
 

@@ -14,6 +14,8 @@
 #define UNIT  ((int64_t)1 << 32)
 #define ONE   ((int64_t)1 << 40)
 #define FALL  (ONE / 367) /* 9.81 m / s^2 at 60 frames */
+/* A skin of the box: its radius, 0.573, over 2048, is 2^-11.8. */
+#define SKIN (UNIT >> 12)
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape box;
