@@ -186,9 +186,36 @@ static void test_flatten(void)
     }
 }
 
+/* A cube on a plane and one below it: edges get the normal of the plane's side that they are on. */
+static void test_flatten_both_sides(void)
+{
+    const struct carom_mesh *plane = &hand.ground.mesh;
+
+    stack(1, 0, 0, 0);
+    boyse_pair_init(&hand.pair, &hand.bodies[1], &hand.bodies[0]);
+    for (int n = 0; n < 2; n++) {
+        const bool under = n == 1;
+        const int64_t leaning[3] = {3000, -2000, under ? -1000000 : 1000000};
+        const carom_v3_q30 side = {{0, 0, under ? -CAROM_ONE_Q30 : CAROM_ONE_Q30}};
+        carom_v3_q30 given;
+
+        fix_normalise(&given, leaning);
+        for (uint32_t i = 0; i < hand.solid.mesh.edge_count; i++) {
+            for (uint32_t j = 0; j < plane->edge_count; j++) {
+                const struct candidate key = {0, CANDIDATE_EDGE_EDGE, i, j};
+                carom_v3_q30 normal = given;
+
+                contact_flatten(&hand.pair, &key, &normal);
+                CHECK_EQ(memcmp(&normal, borders(i, under) ? &side : &given, sizeof normal), 0);
+            }
+        }
+    }
+}
+
 const struct test tests_solve_rest_stack[] = {
     {"solve_rest_stack/unsettled", test_unsettled},
     {"solve_rest_stack/share", test_share},
     {"solve_rest_stack/flatten", test_flatten},
+    {"solve_rest_stack/flatten_both_sides", test_flatten_both_sides},
     {0},
 };

@@ -22,17 +22,31 @@ static bool opposite(const int32_t a[3], const int32_t b[3])
     return true;
 }
 
-/* Set the world normals of b's faces at an edge that are nearly N; returns how many. */
+/*
+ * Set the world normals of b's faces at an edge that are nearly N, seen from the side of N if the
+ * faces have two; returns how many.
+ */
 static int nearly_along(const struct body *b, const struct carom_edge *edge,
                         const carom_v3_q30 *normal, int32_t along[2][3])
 {
     int count = 0;
 
     for (int side = 0; side < 2; side++) {
-        if (edge->face[side] != CAROM_NO_FACE) {
-            normal_of(b, edge->face[side], along[count]);
-            count += carom_dot(along[count], normal->c) >> 30 > CONTACT_SAME_NORMAL_Q30;
+        int32_t *own = along[count];
+        int64_t cosine_q30;
+
+        if (edge->face[side] == CAROM_NO_FACE) {
+            continue;
         }
+        normal_of(b, edge->face[side], own);
+        cosine_q30 = carom_dot(own, normal->c) >> 30;
+        if (cosine_q30 < 0 && mesh_two_sided(b->def.mesh)) {
+            cosine_q30 = -cosine_q30;
+            for (int k = 0; k < 3; k++) {
+                own[k] = -own[k];
+            }
+        }
+        count += cosine_q30 > CONTACT_SAME_NORMAL_Q30;
     }
     return count;
 }
