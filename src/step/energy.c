@@ -230,19 +230,27 @@ static bool gains(const struct account *sum)
     return fix_wide_sign(&over) > 0;
 }
 
-/*
- * Take the excess out of an island's momenta; out of those of bodies that left first. True if it is in
- * the air and its rigid motion alone has more energy than it may have.
- */
-static bool limit_island(struct step *s, uint32_t first)
+/* Sum up an island after the bodies that left it gave what it gained, as far as they have it. */
+static struct account settle_left(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
-    struct rest_rigid rigid;
 
     if (gains(&sum) && fix_wide_sign(&sum.left) > 0) {
         scale_left(s, first, factor_q30(&sum.left, &sum.excess));
         sum = audit(s, first);
     }
+    return sum;
+}
+
+/*
+ * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone has
+ * more energy than it may have.
+ */
+static bool limit_island(struct step *s, uint32_t first)
+{
+    struct account sum = settle_left(s, first);
+    struct rest_rigid rigid;
+
     if (!gains(&sum)) {
         return false;
     }
@@ -304,7 +312,7 @@ static bool is_snatched(const struct account *sum)
  */
 static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
 {
-    struct account sum = audit(s, first);
+    struct account sum = settle_left(s, first);
     bool grounded = s->w->bodies[first].clock.grounded;
     struct fix_wide energy = sum.kinetic, changed;
     struct rest_rigid rigid;
