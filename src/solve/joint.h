@@ -49,7 +49,7 @@ struct joint_row {
     uint32_t start;
     uint16_t first;            /* first row that it is coupled to */
     struct fix_scaled inverse; /* of its diagonal entry; 0: the row has no impulse of its own */
-    int64_t x;
+    int64_t x;                 /* the solution; before it, y of the row that is factored */
 };
 
 /* Room for factors, numbers for each joint of the capacity. */

@@ -11,13 +11,13 @@
 #include "joint_parts.h"
 
 /*
- * A pivot that may be rounding: the row repeats rows before it, as in loops or two joints between
- * the same bodies. It gets no impulse of its own; dividing by such a pivot would give impulses
- * without measure.
+ * A row that repeats rows before it, as in loops or two joints between the same bodies, has a pivot
+ * of nothing but rounding. It gets no impulse of its own; dividing by such a pivot would give
+ * impulses without measure.
  *
- * Below PIVOT_MIN_Q60 a pivot is rounding. A row that is rows before it times y has a pivot of y^T E y,
- * E being what rounding changed in A: at most 2^-PIVOT_NOISE_BITS times the square of the sum of |y| and
- * 1. A pivot above PIVOT_SURE_Q60 is sure without y.
+ * That is a pivot of at most PIVOT_MIN_Q60. If the row is the sum of rows before it times y, rounding
+ * of A by at most 2^-PIVOT_NOISE_BITS leaves a pivot of up to that times the square of 1 plus the sum of
+ * |y|. A pivot above PIVOT_SURE_Q60 is sure without y.
  */
 #define PIVOT_MIN_Q60    ((int64_t)1 << (60 - 24))
 #define PIVOT_NOISE_BITS 28
