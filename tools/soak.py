@@ -176,7 +176,6 @@ def document(by_kind):
         rows = [row for made, _ in alone.values() for row in made]
         marked.write(DOCS, "soak", lines_of_table([summary(kind, *made) for kind, made in alone.items()]) +
                      faults_of(rows))
-        claims.write()
     machines = {kind: made for kind, made in by_kind.items() if kind in JOINTED}
     if machines:
         rows = [row for made, _ in machines.values() for row in made]
@@ -184,6 +183,7 @@ def document(by_kind):
                      lines_of_table([summary(kind, *made) for kind, made in machines.items()]) + [""] +
                      lines_of_table([joints(kind, made) for kind, (made, _) in machines.items()]) +
                      faults_of(rows))
+    claims.write()
 
 
 def keep_counts(by_kind):
