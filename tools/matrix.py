@@ -218,7 +218,8 @@ class Board(Build):
 
     def __init__(self, board):
         settings = run_board.settings(board)
-        super().__init__(board, settings.get("CROSS", "") + "gcc", settings.get("OPT", "-O2"), 32, "little")
+        super().__init__(board, settings.get("CROSS", "") + "gcc",
+                         settings.get("MATRIX_OPT") or settings.get("OPT", "-O2"), 32, "little")
         self.need = settings.get("NEED", "cc libc").split()
         self.elf = "build/%s/matrix.elf" % board
         runner = settings.get("QEMU") or settings.get("QEMU_USER") or settings.get("RUNNER")
@@ -228,7 +229,7 @@ class Board(Build):
 
     def make(self):
         with MAKING:
-            call(["make", "-s", "-j2", "BOARD=" + self.target, self.elf, *self.extra], "make")
+            call(["make", "-s", "-j2", "BOARD=" + self.target, "OPT=" + self.options, self.elf, *self.extra], "make")
         with open(self.elf, "rb") as file:
             self.bits, self.order = ELF[file.read(6)[4:]]
 

@@ -17,3 +17,5 @@ LINE_BYTES := 96
 PICTURES := 0
 SUITES := port num_fix num_arena num_gauss num_gauss_cost mesh_scan mesh_zlist mesh_mass solve_impact
 SUITE_IMAGES := 1
+# With -O2 the matrix's program is larger than the ROM.
+MATRIX_OPT := -Os
