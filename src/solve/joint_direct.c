@@ -106,7 +106,10 @@ static inline void substitute_back(struct rest *r, uint32_t i)
     }
 }
 
-/* True if the pivot of the row at a place is but rounding; the row's other entries of C are set. */
+/*
+ * True if the pivot of the row at a place is but rounding; the row's other entries of C are set. It
+ * stops as soon as |y| suffices, at 2^9 at most, so no y outgrows its bits.
+ */
 static bool is_noise(struct rest *r, uint32_t place, int64_t pivot_q60)
 {
     struct joint_row *rows = r->joints.rows;
