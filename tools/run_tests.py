@@ -11,7 +11,7 @@ frames both must have the same state.
 
 Two workers share the files. Scripts and scenes on boards call make in this tree, so one worker runs them, one after
 another; the other one begins with the programs, and both end there. The lines of a file are printed together, and
-after them how long it took.
+after them how long it took, and the processors' time of that.
 """
 import argparse
 import concurrent.futures
@@ -75,7 +75,8 @@ def run(path, select, counts, seconds):
     clock = threading.Timer(seconds, process.kill)
     clock.start()
     said = process.stdout.read()
-    status = process.wait()
+    _, status, used = os.wait4(process.pid, 0)
+    status = process.returncode = os.waitstatus_to_exitcode(status)
     clock.cancel()
     passed, failed = len(re.findall(r"^ok\b", said, re.M)), len(re.findall(r"^not ok\b", said, re.M))
     left_out = sum(map(int, re.findall(r"^# (\d+) known to fail, left out", said, re.M)))
@@ -83,7 +84,8 @@ def run(path, select, counts, seconds):
     if failed == 0 and not nothing_selected and (status != 0 or passed == 0):
         said += "not ok - %s: %d tests, exit status %d\n" % (path, passed, status)
         failed += 1
-    counts.add("# %s\n%s# %s: %.0f s\n" % (path, said, path, time.monotonic() - began), passed, failed, left_out)
+    counts.add("# %s\n%s# %s: %.0f s; processors %.0f s\n" % (
+        path, said, path, time.monotonic() - began, used.ru_utime + used.ru_stime), passed, failed, left_out)
 
 
 def scene_ends(board, scene, frames, seconds):
