@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Sensors: what is in them, to the frame; and nothing else notices them. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "lib/boxes.h"
@@ -258,10 +259,101 @@ static void test_put_around(void)
     }
 }
 
+/* A turn about an axis whose cosine and sine are c / 5 and s / 5, and its quaternion's w and part along the axis. */
+static const struct {
+    int c, s;
+    int32_t w_q30, v_q30;
+} turns[] = {{5, 0, CAROM_ONE_Q30, 0}, {3, 4, 960383883, 480191942}, {4, 3, 1018640935, 339546978}};
+
+/* A box as seen from above: centre, half sides, turn. */
+struct rectangle {
+    int x, y, half[2], turn;
+};
+
+/* The gap between two rectangles along the sides of `of`, in 25ths of a unit; below 0 if they overlap there. */
+static int gap_along(const struct rectangle *of, const struct rectangle *a,
+                     const struct rectangle *b)
+{
+    int most = INT32_MIN;
+
+    for (int side = 0; side < 2; side++) {
+        const int c = turns[of->turn].c, s = turns[of->turn].s;
+        const int along[2] = {side == 0 ? c : -s, side == 0 ? s : c};
+        int gap = 5 * abs((b->x - a->x) * along[0] + (b->y - a->y) * along[1]);
+
+        for (int n = 0; n < 2; n++) {
+            const struct rectangle *r = n == 0 ? a : b;
+            const int rc = turns[r->turn].c, rs = turns[r->turn].s;
+
+            gap -= r->half[0] * abs(rc * along[0] + rs * along[1]) +
+                   r->half[1] * abs(rc * along[1] - rs * along[0]);
+        }
+        most = gap > most ? gap : most;
+    }
+    return most;
+}
+
+/*
+ * A sensor and a box whose faces lie in one plane, or the box touches the plane of the sensor's top with an edge: the box is in
+ * the sensor only where they overlap as seen from above. In the plane, that is asked of faces that no plane of theirs separates.
+ */
+static void test_in_one_plane(void)
+{
+    struct test_random r = {5};
+    int within = 0, beside = 0;
+
+    begin();
+    boxes_config.gravity = (carom_v3_q40){{0, 0, 0}};
+    boxes_make(ZONE, 400, 40, 150);
+    boxes_make(BOX, 300, 60, 150);
+    for (int i = 0; i < 300; i++) {
+        const int rolled = i % 2;
+        struct rectangle a = {0, 0, {400, 40}, (int)test_random_range(&r, 0, 2)};
+        struct rectangle b = {(int)test_random_range(&r, -500, 500),
+                              (int)test_random_range(&r, -500, 500),
+                              {300, 60},
+                              (int)test_random_range(&r, 0, 2)};
+        const int64_t w_q30 = turns[b.turn].w_q30, v_q30 = turns[b.turn].v_q30;
+        struct carom_body_def def;
+        struct carom_world *w = boxes_world(0);
+        int sensor, box, gap, along_b;
+
+        def = boxes_def(ZONE, 0, 0, 0);
+        def.sensor = true;
+        def.stationary = true;
+        def.rotation = (carom_quat_q30){{turns[a.turn].w_q30, 0, 0, turns[a.turn].v_q30}};
+        sensor = boxes_add(w, &def);
+        def = boxes_def(BOX, b.x, b.y, rolled ? 150 + (60 * 4 + 150 * 3) / 5 : 0);
+        def.rotation = (carom_quat_q30){{turns[b.turn].w_q30, 0, 0, turns[b.turn].v_q30}};
+        if (rolled) { /* then about its x, by the second turn */
+            const int64_t rw_q30 = turns[1].w_q30, rv_q30 = turns[1].v_q30;
+
+            def.rotation = (carom_quat_q30){
+                {(int32_t)(w_q30 * rw_q30 >> 30), (int32_t)(w_q30 * rv_q30 >> 30),
+                 (int32_t)(v_q30 * rv_q30 >> 30), (int32_t)(v_q30 * rw_q30 >> 30)}};
+            b.half[1] = (60 * 3 + 150 * 4) / 5;
+        }
+        box = boxes_add(w, &def);
+        gap = gap_along(&a, &a, &b);
+        along_b = gap_along(&b, &a, &b);
+        gap = along_b > gap ? along_b : gap;
+        if (abs(gap) < 50 || (rolled && gap < 0)) {
+            continue; /* too near to say; or the edge is at the sensor's top */
+        }
+        boxes_step(w, 1);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), gap < 0);
+        within += gap < 0;
+        beside += gap > 0;
+    }
+    CHECK_MORE(within, 20);
+    CHECK_MORE(beside, 100);
+}
+
 const struct test tests_world_sensor[] = {{"world_sensor/fall", test_fall},
                                           {"world_sensor/through", test_through},
                                           {"world_sensor/unnoticed", test_unnoticed},
                                           {"world_sensor/asleep", test_asleep},
                                           {"world_sensor/put_around", test_put_around},
                                           {"world_sensor/who", test_who},
+                                          {"world_sensor/in_one_plane", test_in_one_plane},
                                           {0}};

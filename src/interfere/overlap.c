@@ -70,28 +70,18 @@ static int64_t rise(const int32_t w[3], const struct interfere_vec *from,
 }
 
 /*
- * True if the direction across edges 0-k of both faces separates them, q being the upper face or
- * not. Sides and signs only choose which directions to try; the result rests on all six corners.
+ * True if a direction separates the faces, q being the upper one. The result rests on all six corners.
  *
- * Bounds: edges are scaled to below 2^30, w is truncated to 2^29. The boxes of the faces meet, so
- * corners differ by less than 2^30, and the three products sum to less than 2^61.
+ * Bounds: |w| is below 2^29. The boxes of the faces meet, so corners differ by less than 2^30, and the three products sum to
+ * less than 2^61.
  */
-static bool apart_across(const struct overlap *m, int k, bool upper)
+static bool is_above(const struct overlap *m, const int32_t w[3])
 {
     const struct interfere_vec *from = m->p[0];
-    struct interfere_vec e = way(from, m->p[k], m->scale_p);
-    struct interfere_vec f = way(m->q[0], m->q[k], m->scale_q);
-    int64_t gap, limit, top = 0;
-    int32_t w[3];
+    int64_t limit = (carom_abs(w[0]) + carom_abs(w[1]) + carom_abs(w[2])) * m->near_q20;
+    int64_t gap = rise(w, from, m->q[0]), top = 0;
 
-    if (upper) {
-        carom_cross(w, e.c, f.c, 32);
-    } else {
-        carom_cross(w, f.c, e.c, 32);
-    }
-    gap = rise(w, from, m->q[0]);
     CAROM_ASSERT(carom_abs(gap) < (int64_t)1 << 61);
-    limit = (carom_abs(w[0]) + carom_abs(w[1]) + carom_abs(w[2])) * m->near_q20;
     if (gap <= limit) {
         return false;
     }
@@ -104,11 +94,60 @@ static bool apart_across(const struct overlap *m, int k, bool upper)
     return gap - top > limit;
 }
 
+/*
+ * True if the direction across edges 0-k of both faces separates them, q being the upper face or
+ * not. Sides and signs only choose which directions to try. Edges are scaled to below 2^30.
+ */
+static bool apart_across(const struct overlap *m, int k, bool upper)
+{
+    struct interfere_vec e = way(m->p[0], m->p[k], m->scale_p);
+    struct interfere_vec f = way(m->q[0], m->q[k], m->scale_q);
+    int32_t w[3];
+
+    if (upper) {
+        carom_cross(w, e.c, f.c, 32);
+    } else {
+        carom_cross(w, f.c, e.c, 32);
+    }
+    return is_above(m, w);
+}
+
+/* True if a direction across an edge of p or q, in the plane of that face, separates two faces that lie in one plane. */
+static bool apart_in_plane(const struct overlap *m)
+{
+    for (int side = 0; side < 2; side++) {
+        const struct interfere_vec *const *t = side == 0 ? m->p : m->q;
+        int32_t scale = side == 0 ? m->scale_p : m->scale_q, n[3], w[3];
+
+        carom_cross(n, way(t[0], t[1], scale).c, way(t[0], t[2], scale).c, 32);
+        for (int k = 0; k < 3; k++) {
+            struct interfere_vec e = way(t[k], t[k == 2 ? 0 : k + 1], scale);
+
+            /* out of p, or into q */
+            if (side == 0) {
+                carom_cross(w, e.c, n, 32);
+            } else {
+                carom_cross(w, n, e.c, 32);
+            }
+            if (is_above(m, w)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /* The corner alone on its side of a plane, indexed by the bits of the corners above the plane. */
 static const uint8_t lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
 
+/* The corners of a face on one side of a plane, by the bits of those above and below it: those at the plane count as above if no other is. */
+static uint32_t corners_above(uint32_t over, uint32_t under)
+{
+    return over != 0 ? over : 7 & ~under;
+}
+
 /*
- * True if two faces that each reach through the other's plane do not meet. Where both planes
+ * True if two faces that each reach the other's plane do not meet. Where both planes
  * intersect each face covers an interval, bounded by its two edges at the lone corner. If the
  * intervals overlap the faces cross. Otherwise the direction across the two edges at the facing
  * ends separates them. The sides of the lone corners say which ends face each other.
@@ -126,7 +165,8 @@ static bool intervals_apart(struct overlap *m, const struct interfere_vec *const
     m->q[0] = &q[j];
     m->q[1] = &q[same ? next[j] : last[j]];
     m->q[2] = &q[same ? last[j] : next[j]];
-    return apart_across(m, 1, !q_over) || apart_across(m, 2, q_over);
+    return ((over_p == 7 || over_q == 7) && apart_in_plane(m)) || apart_across(m, 1, !q_over) ||
+           apart_across(m, 2, q_over);
 }
 
 /* Add a pair unless listed: a face lies in several cells and may come up again. */
@@ -158,15 +198,17 @@ static bool faces_cross(const struct interfere *in, const struct target *t, uint
     const uint8_t *corner = interfere_corners(in, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     struct overlap m = {.scale_p = in->query->edge_scale, .near_q20 = l->near_q20};
-    uint32_t over_p = 0;
+    uint32_t over = 0, under = 0;
     int32_t size = 0;
 
     for (int k = 0; k < 3; k++) {
         size |= t->high.c[k] - t->low.c[k]; /* has as many bits as the largest side */
-        over_p |= (t->over >> corner[k] & 1) << k;
+        over |= (t->over >> corner[k] & 1) << k;
+        under |= (t->under >> corner[k] & 1) << k;
     }
     m.scale_q = scale_for(size);
-    return !intervals_apart(&m, p, t->p, over_p, t->corners_over);
+    return !intervals_apart(&m, p, t->p, corners_above(over, under),
+                            corners_above(t->corners_over, t->corners_under));
 }
 
 static void list_pair(struct interfere *in, const struct target *t, uint32_t i)

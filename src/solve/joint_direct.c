@@ -15,12 +15,12 @@
  * of nothing but rounding. It gets no impulse of its own; dividing by such a pivot would give
  * impulses without measure.
  *
- * That is a pivot of at most PIVOT_MIN_Q60. If the row is the sum of rows before it times y, rounding
- * of A by at most 2^-PIVOT_NOISE_BITS leaves a pivot of up to that times the square of 1 plus the sum of
- * |y|. A pivot above PIVOT_SURE_Q60 is sure without y.
+ * That is a pivot of at most PIVOT_MIN_Q60. If the row is the sum of rows before it times y, each entry of A
+ * adds its rounding to the pivot by the products of two of 1 and y. Roundings of either sign add up to some 2^-30 times
+ * 1 plus the sum of y^2; 2^-PIVOT_NOISE_BITS leaves room. A pivot above PIVOT_SURE_Q60 is sure without y.
  */
 #define PIVOT_MIN_Q60    ((int64_t)1 << (60 - 24))
-#define PIVOT_NOISE_BITS 28
+#define PIVOT_NOISE_BITS 27
 #define PIVOT_SURE_Q60   ((int64_t)1 << (60 - 10))
 /*
  * The square of the length of a row of C, which is at most 1 but for rounding. Where A is far from
@@ -108,24 +108,26 @@ static inline void substitute_back(struct rest *r, uint32_t i)
 
 /*
  * True if the pivot of the row at a place is but rounding; the row's other entries of C are set. It
- * stops as soon as |y| suffices, at 2^9 at most, so no y outgrows its bits.
+ * stops as soon as y suffices, at 2^8 at most, so no y outgrows its bits.
  */
 static bool is_noise(struct rest *r, uint32_t place, int64_t pivot_q60)
 {
     struct joint_row *rows = r->joints.rows;
     const struct joint_row *row = &rows[place];
-    int64_t sum_q30 = CAROM_ONE_Q30, most_q30;
+    int64_t sum_q30 = CAROM_ONE_Q30, most_q30 = pivot_q60 >> (30 - PIVOT_NOISE_BITS);
 
     if (pivot_q60 <= PIVOT_MIN_Q60 || pivot_q60 > PIVOT_SURE_Q60) {
         return pivot_q60 <= PIVOT_MIN_Q60;
     }
-    most_q30 = carom_shl(fix_sqrt((uint64_t)pivot_q60), PIVOT_NOISE_BITS / 2);
     for (uint32_t n = 0; n < place; n++) {
         rows[n].x = n < row->first ? 0 : r->joints.room[row->start + n - row->first];
     }
     for (uint32_t n = place; n-- > 0 && sum_q30 <= most_q30;) {
+        int64_t y_q15;
+
         substitute_back(r, n);
-        sum_q30 += carom_abs(rows[n].x);
+        y_q15 = rest_within(rows[n].x >> 15, INT32_MAX);
+        sum_q30 += y_q15 * y_q15;
     }
     return sum_q30 > most_q30;
 }

@@ -207,6 +207,8 @@ int crowd_overlap(const struct crowd *crowd, int a, int b, const struct oracle_p
                   const struct oracle_pose *pose_b, double near);
 /* The same for their present poses. */
 int crowd_overlap_now(const struct crowd *crowd, int a, int b, double near);
+/* The gap between the boxes of two bodies' meshes, each turned with its body, units; below 0 if they overlap. */
+double crowd_box_gap(const struct crowd *crowd, int a, int b);
 
 /* Read the bodies without a step; for the first frame and after carom_body_set. */
 void crowd_look(struct crowd *crowd);

@@ -186,6 +186,43 @@ int crowd_overlap_now(const struct crowd *crowd, int a, int b, double near)
     return crowd_overlap(crowd, a, b, &pose_a, &pose_b, near);
 }
 
+/* The box of a body's mesh, turned with the body, along the world's axes: it may be larger than that of the body. */
+static void turned_box(const struct crowd *crowd, int body, double low[3], double high[3])
+{
+    const struct oracle_mesh *mesh = mesh_of(crowd, body);
+    const struct oracle_pose pose = pose_of(crowd, body);
+
+    for (int k = 0; k < 3; k++) {
+        low[k] = high[k] = pose.position[k];
+    }
+    for (int i = 0; i < 3; i++) {
+        double least = mesh->vertices[0][i], most = least;
+
+        for (size_t v = 1; v < mesh->vertex_count; v++) {
+            least = fmin(least, mesh->vertices[v][i]);
+            most = fmax(most, mesh->vertices[v][i]);
+        }
+        for (int k = 0; k < 3; k++) {
+            double along = pose.rotation.row[k][i];
+
+            low[k] += fmin(along * least, along * most);
+            high[k] += fmax(along * least, along * most);
+        }
+    }
+}
+
+double crowd_box_gap(const struct crowd *crowd, int a, int b)
+{
+    double low[2][3], high[2][3], gap = -HUGE_VAL;
+
+    turned_box(crowd, a, low[0], high[0]);
+    turned_box(crowd, b, low[1], high[1]);
+    for (int k = 0; k < 3; k++) {
+        gap = fmax(gap, fmax(low[0][k] - high[1][k], low[1][k] - high[0][k]));
+    }
+    return gap;
+}
+
 /* Whether body a is inside b, when no face of a crosses one of b. */
 static bool is_inside(const struct crowd *crowd, int a, int b)
 {

@@ -101,16 +101,6 @@ static void watch_joints(struct soak_world *w, long frame)
 
 /* ----------------------------------------------------------------------- sensors */
 
-static bool boxes_meet(const struct crowd_seen *a, const struct crowd_seen *b)
-{
-    for (int k = 0; k < 3; k++) {
-        if (a->low[k] > b->high[k] + NEAR || b->low[k] > a->high[k] + NEAR) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /*
  * Whether a sensor sees a body: filters allow it, one of the two moves, neither is out, and the
  * body is no sensor.
@@ -127,12 +117,10 @@ static bool is_asked(const struct soak_world *w, int sensor, int other)
 
 static void watch_sensor(struct soak_world *w, int sensor, int other, long frame)
 {
-    const struct crowd_body *a = &w->crowd->bodies[sensor], *b = &w->crowd->bodies[other];
-    int is = 0;
+    /* under a surface counts as inside while the boxes meet (SPEC.md, 10) */
+    const double gap = crowd_box_gap(w->crowd, sensor, other);
+    int is = gap > NEAR ? 0 : gap > -NEAR ? -1 : crowd_overlap_now(w->crowd, sensor, other, NEAR);
 
-    if (boxes_meet(&a->now, &b->now)) {
-        is = crowd_overlap_now(w->crowd, sensor, other, NEAR);
-    }
     w->seen->sensor_asked++;
     if (is >= 0 && is != w->seen->within[sensor][other] && w->seen->sensor_frame == 0) {
         w->seen->sensor_frame = frame;
