@@ -112,26 +112,23 @@ static bool apart_across(const struct overlap *m, int k, bool upper)
     return is_above(m, w);
 }
 
-/* True if a direction across an edge of p or q, in the plane of that face, separates two faces that lie in one plane. */
-static bool apart_in_plane(const struct overlap *m)
+/* True if a direction across an edge of p or of q, in the plane of that face, separates two faces that lie in one plane. */
+FIX_OWN_FRAME static bool apart_beside(const struct overlap *m,
+                                       const struct interfere_vec *const t[3], int32_t scale)
 {
-    for (int side = 0; side < 2; side++) {
-        const struct interfere_vec *const *t = side == 0 ? m->p : m->q;
-        int32_t scale = side == 0 ? m->scale_p : m->scale_q, n[3], w[3];
+    struct interfere_vec e = way(t[0], t[1], scale), w = way(t[0], t[2], scale), n;
 
-        carom_cross(n, way(t[0], t[1], scale).c, way(t[0], t[2], scale).c, 32);
-        for (int k = 0; k < 3; k++) {
-            struct interfere_vec e = way(t[k], t[k == 2 ? 0 : k + 1], scale);
-
-            /* out of p, or into q */
-            if (side == 0) {
-                carom_cross(w, e.c, n, 32);
-            } else {
-                carom_cross(w, n, e.c, 32);
-            }
-            if (is_above(m, w)) {
-                return true;
-            }
+    carom_cross(n.c, e.c, w.c, 32);
+    for (int k = 0; k < 3; k++) {
+        e = way(t[k], t[k == 2 ? 0 : k + 1], scale);
+        /* out of p, or into q */
+        if (t == m->p) {
+            carom_cross(w.c, e.c, n.c, 32);
+        } else {
+            carom_cross(w.c, n.c, e.c, 32);
+        }
+        if (is_above(m, w.c)) {
+            return true;
         }
     }
     return false;
@@ -165,8 +162,9 @@ static bool intervals_apart(struct overlap *m, const struct interfere_vec *const
     m->q[0] = &q[j];
     m->q[1] = &q[same ? next[j] : last[j]];
     m->q[2] = &q[same ? last[j] : next[j]];
-    return ((over_p == 7 || over_q == 7) && apart_in_plane(m)) || apart_across(m, 1, !q_over) ||
-           apart_across(m, 2, q_over);
+    return ((over_p == 7 || over_q == 7) &&
+            (apart_beside(m, m->p, m->scale_p) || apart_beside(m, m->q, m->scale_q))) ||
+           apart_across(m, 1, !q_over) || apart_across(m, 2, q_over);
 }
 
 /* Add a pair unless listed: a face lies in several cells and may come up again. */
