@@ -18,7 +18,8 @@
  *   keep.c       the pool: emit a candidate, make room, keep candidates of other pairs
  *   lists.c      z-lists made within a step, for surfaces that move
  *   faces.c      list of interfering faces, order of candidates
- *   overlap.c    queries without motion: face pairs that cross, point inside a mesh
+ *   overlap.c    queries without motion: face pairs that cross
+ *   inside.c     is a body inside another one
  *
  * The result is conservative for every motion that stays within both regions: it lacks no pair of
  * features that can touch, and may hold some that cannot. So chunk sizes, duplicates and early

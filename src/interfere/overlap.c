@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries without motion: which face pairs of two bodies cross at their poses, and is a body inside
- * another.
+ * Queries without motion: which face pairs of two bodies cross at their poses?
  *
  * A query walks a's leaves over b's z-lists as a step does. A face pair that no face's plane
  * separates is then tested by directions across one edge of each. Places in b's frame are off by a
  * few units of q20. A pair is dropped only if some direction separates it by more than that, so no
  * crossing pair is lost, however thin.
  */
-#include "../num/plane.h"
 #include "narrow.h"
 
 /* Margin when boxes of bodies are compared, q22: more than all truncation here. */
@@ -70,10 +68,11 @@ static int64_t rise(const int32_t w[3], const struct interfere_vec *from,
 }
 
 /*
- * True if a direction separates the faces, q being the upper one. The result rests on all six corners.
+ * True if a direction separates the faces, q being the upper one. The result rests on all six
+ * corners.
  *
- * Bounds: |w| is below 2^29. The boxes of the faces meet, so corners differ by less than 2^30, and the three products sum to
- * less than 2^61.
+ * Bounds: |w| is below 2^29. The boxes of the faces meet, so corners differ by less than 2^30, and
+ * the three products sum to less than 2^61.
  */
 static bool is_above(const struct overlap *m, const int32_t w[3])
 {
@@ -112,7 +111,10 @@ static bool apart_across(const struct overlap *m, int k, bool upper)
     return is_above(m, w);
 }
 
-/* True if a direction across an edge of p or of q, in the plane of that face, separates two faces that lie in one plane. */
+/*
+ * True if a direction across an edge of one face t, p or q, in its plane, separates two faces that
+ * lie in one plane.
+ */
 FIX_OWN_FRAME static bool apart_beside(const struct overlap *m,
                                        const struct interfere_vec *const t[3], int32_t scale)
 {
@@ -137,7 +139,10 @@ FIX_OWN_FRAME static bool apart_beside(const struct overlap *m,
 /* The corner alone on its side of a plane, indexed by the bits of the corners above the plane. */
 static const uint8_t lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
 
-/* The corners of a face on one side of a plane, by the bits of those above and below it: those at the plane count as above if no other is. */
+/*
+ * The corners of a face above a plane, by the bits of those surely above and below it: those at the
+ * plane count as above if no other is, so that a lone corner is one that parts the face.
+ */
 static uint32_t corners_above(uint32_t over, uint32_t under)
 {
     return over != 0 ? over : 7 & ~under;
@@ -412,99 +417,4 @@ bool interfere_query_sure(struct interfere *in, struct interfere_placed a,
     CAROM_ASSERT(a.body->def.mesh->raw.kind == CAROM_SOLID);
     return query(in, a, b, sure, NULL, 0) !=
            0; /* room is 0: the first pair found ends the search with an error */
-}
-
-/* -------------------------------------------------------------- containment */
-
-/* Place a's first vertex in b's mesh, q22 from its origin. Returns false if it does not fit. */
-static bool place_probe(carom_v3_q22 *out, struct interfere_placed a, struct interfere_placed b)
-{
-    const struct carom_mesh *mb = b.body->def.mesh;
-    carom_v3_q22 v = mesh_vertex(a.body->def.mesh, 0);
-    int64_t p_q32[3];
-    carom_m3_q30 r;
-
-    for (int k = 0; k < 3; k++) {
-        p_q32[k] = carom_shl(v.c[k], 10);
-    }
-    fix_matrix(&r, &a.state->rotation);
-    fix_rotate(p_q32, &r, p_q32);
-    for (int k = 0; k < 3; k++) {
-        p_q32[k] += a.state->position.c[k] - b.state->position.c[k];
-    }
-    fix_matrix(&r, &b.state->rotation);
-    fix_rotate_back(p_q32, &r, p_q32);
-    for (int k = 0; k < 3; k++) {
-        p_q32[k] += carom_shl(mb->mass.centre.c[k], 10);
-        if (carom_abs(p_q32[k]) >= (int64_t)256 << 32) {
-            return false; /* meshes are within 256 units */
-        }
-        out->c[k] = (int32_t)(p_q32[k] >> 10);
-    }
-    return true;
-}
-
-/* For a face above the point: 1 if it looks up, -1 if it looks down. 0 for any other face. */
-static int face_over(const struct carom_mesh *mesh, uint16_t face, const carom_v3_q22 *p)
-{
-    carom_v3_q22 corner[3], d;
-    int64_t height;
-    int side;
-
-    for (int k = 0; k < 3; k++) {
-        const int16_t *quanta = mesh->raw.vertices[mesh->raw.faces[face][k]];
-
-        for (int i = 0; i < 3; i++) {
-            corner[k].c[i] = quanta[i] * ((int32_t)1 << (22 - mesh->raw.quantum_bits));
-        }
-    }
-    side = plane_over(corner[0].c, corner[1].c, corner[2].c, p->c);
-    if (side == 0) {
-        return 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        d.c[k] = p->c[k] - corner[0].c[k];
-    }
-    height = carom_dot(mesh->faces[face].normal.c, d.c);
-    return (side > 0 ? height < 0 : height > 0) ? side : 0;
-}
-
-/* Winding number: upward minus downward faces above a point, from the z-list of its cell. */
-static int winding_at(const struct carom_mesh *mesh, const carom_v3_q22 *p)
-{
-    int to_quanta = 22 - mesh->raw.quantum_bits, winding = 0;
-    int32_t col = ((p->c[0] >> to_quanta) - mesh->grid_x0) >> mesh->grid_shift;
-    int32_t row = ((p->c[1] >> to_quanta) - mesh->grid_y0) >> mesh->grid_shift;
-    const struct carom_zref *r, *end;
-    uint32_t cell;
-
-    if (col < 0 || col >= mesh->grid_nx || row < 0 || row >= mesh->grid_ny) {
-        return 0;
-    }
-    cell = (uint32_t)(row * mesh->grid_nx + col);
-    end = &mesh->zrefs[mesh->cell_start[cell + 1]];
-    for (r = &mesh->zrefs[mesh->cell_start[cell]]; r < end && r->z1 >= p->c[2] >> to_quanta; r++) {
-        winding += face_over(mesh, r->face, p);
-    }
-    return winding;
-}
-
-/* winding_at over all faces, for a mesh whose own z-lists are out of date. */
-static int winding_of_all(const struct carom_mesh *mesh, const carom_v3_q22 *p)
-{
-    int winding = 0;
-
-    for (uint32_t face = 0; face < mesh->raw.face_count; face++) {
-        winding += face_over(mesh, (uint16_t)face, p);
-    }
-    return winding;
-}
-
-bool interfere_inside(struct interfere_placed a, struct interfere_placed b)
-{
-    const struct carom_mesh *mb = b.body->def.mesh;
-    carom_v3_q22 p;
-
-    return place_probe(&p, a, b) &&
-           (mesh_lists_in_step(mb) ? winding_of_all(mb, &p) : winding_at(mb, &p)) > 0;
 }

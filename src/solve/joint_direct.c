@@ -15,9 +15,10 @@
  * of nothing but rounding. It gets no impulse of its own; dividing by such a pivot would give
  * impulses without measure.
  *
- * That is a pivot of at most PIVOT_MIN_Q60. If the row is the sum of rows before it times y, each entry of A
- * adds its rounding to the pivot by the products of two of 1 and y. Roundings of either sign add up to some 2^-30 times
- * 1 plus the sum of y^2; 2^-PIVOT_NOISE_BITS leaves room. A pivot above PIVOT_SURE_Q60 is sure without y.
+ * That is a pivot of at most PIVOT_MIN_Q60. If the row is the sum of rows before it times y, each
+ * entry of A adds its rounding to the pivot by the product of two of 1 and y. Roundings of either
+ * sign add up to some 2^-30 times 1 plus the sum of y^2; 2^-PIVOT_NOISE_BITS leaves room. A pivot
+ * above PIVOT_SURE_Q60 is sure without y.
  */
 #define PIVOT_MIN_Q60    ((int64_t)1 << (60 - 24))
 #define PIVOT_NOISE_BITS 27
