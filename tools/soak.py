@@ -24,7 +24,7 @@ import marked
 
 OUT, DOCS = "out/soak.csv", "docs/soak.md"
 CHUNK = 20  # worlds a process
-SECONDS = 150  # for a world; its steps may take 60
+SECONDS = 150  # of a processor for a world; its steps may take 60
 CUT_ALLOWED = 0.01  # as a part of all frames
 FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
           "much work", "joint", "sensor", "other hash"]
@@ -35,24 +35,33 @@ LOST = "lost"  # the program ended early, or did not end
 COUNTED = ["crosses", "energy", "stands still", "error", LOST, "other hash"]  # over time
 
 
+def processor_seconds(pid):
+    """The time of the processors that a process has used."""
+    with open("/proc/%d/stat" % pid, encoding="ascii") as file:
+        fields = file.read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def lines_of(command):
     """The complete lines of a program until it ends, or takes too long for one line; and how it ended."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    lines, late = [], False
+    lines, late, begin, ended = [], False, 0, threading.Event()
 
-    def stop():
+    def watch():
         nonlocal late
-        late = True
-        process.kill()
+        while not late and not ended.wait(1):
+            late = processor_seconds(process.pid) - begin > SECONDS
+        if late:
+            process.kill()
 
-    while True:
-        clock = threading.Timer(SECONDS, stop)
-        clock.start()
-        line = process.stdout.readline()
-        clock.cancel()
-        if not line.endswith("\n"):
-            break
-        lines.append(line)
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    for line in process.stdout:
+        if line.endswith("\n"):
+            lines.append(line)
+        begin = processor_seconds(process.pid)
+    ended.set()
+    watcher.join()
     status = process.wait()
     return lines, "more than %d s" % SECONDS if late else "status %d" % status
 
