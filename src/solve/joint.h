@@ -93,6 +93,8 @@ struct joint_work {
     int64_t second_q40, push_q40; /* the other half; the one that this solve gives */
     /* the time up to which its pull is in the velocities; the longest pull, by its stiffness */
     int32_t pulled_q30, pull_most_q30;
+    /* twice the energy that limits and damping gave in the frame; negative: took */
+    struct fix_wide given2;
     int64_t spring_q40, stiff_q40; /* its change of V, and its impulse by V */
     /* its impulse without damping: -elastic - half_stiff (V' - V) */
     int64_t elastic_q40, half_stiff_q40;

@@ -319,9 +319,8 @@ static bool at_limit(const struct joint_work *work, int64_t before_q40, int64_t 
 }
 
 /*
- * Book the work of the last row's impulse. All of a motor's counts. A spring's own does not, since
- * add_springs2 counts it. Limits and damping only take energy: if they gave any, the end of the
- * frame would take it back.
+ * Book the work of the last row's impulse: a motor's, and apart from it that of limits and damping.
+ * A spring's own is not booked, since add_joints2 counts what it stores.
  */
 static void book_drive(struct rest *r, struct joint *j)
 {
@@ -349,9 +348,7 @@ static void book_drive(struct rest *r, struct joint *j)
         fix_wide_add_product(sum, motor_q40, before_q40 + after_q40);
         p_q40 -= motor_q40;
     }
-    if ((p_q40 < 0) != (before_q40 + after_q40 < 0)) {
-        fix_wide_add_product(sum, p_q40, before_q40 + after_q40);
-    }
+    fix_wide_add_product(&work->given2, p_q40, before_q40 + after_q40);
 }
 
 /*

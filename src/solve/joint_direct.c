@@ -15,13 +15,13 @@
  * of nothing but rounding. It gets no impulse of its own; dividing by such a pivot would give
  * impulses without measure.
  *
- * That is a pivot of at most PIVOT_MIN_Q60. If the row is the sum of rows before it times y, each
- * entry of A adds its rounding to the pivot by the product of two of 1 and y. Roundings of either
- * sign add up to some 2^-30 times 1 plus the sum of y^2; 2^-PIVOT_NOISE_BITS leaves room. A pivot
- * above PIVOT_SURE_Q60 is sure without y.
+ * That is a pivot of at most PIVOT_MIN_Q60. If the row is the sum of rows before it times y, the
+ * entries of C, rounded to q30, leave a pivot of roundings times 1 and y. Roundings of either sign
+ * add up to some 2^-31 times 1 plus the sum of y^2; 2^-PIVOT_NOISE_BITS leaves room. A pivot above
+ * PIVOT_SURE_Q60 is sure without y.
  */
 #define PIVOT_MIN_Q60    ((int64_t)1 << (60 - 24))
-#define PIVOT_NOISE_BITS 27
+#define PIVOT_NOISE_BITS 28
 #define PIVOT_SURE_Q60   ((int64_t)1 << (60 - 10))
 /*
  * The square of the length of a row of C, which is at most 1 but for rounding. Where A is far from
@@ -74,7 +74,7 @@ static bool lay_out(struct rest *r)
 
             row->first = (uint16_t)first;
             row->start = used;
-            used += place - first + 1;
+            used += place - first;
         }
     }
     return used <= r->joints.room_size;
@@ -133,6 +133,21 @@ static bool is_noise(struct rest *r, uint32_t place, int64_t pivot_q60)
     return sum_q30 > most_q30;
 }
 
+/*
+ * The entry of C in row i of joint j and row `at` of the island, which is row n of joint k. The
+ * entries before it are done.
+ */
+static int32_t entry_of(const struct rest *r, const struct joint_work *j, int i,
+                        const struct joint_work *k, int n)
+{
+    const struct joint_row *row = &r->joints.rows[j->row_at + i];
+    const struct joint_row *other = &r->joints.rows[k->row_at + n];
+    int64_t left_q60 =
+        joint_entry(j, i, k, n, 60) - product_q60(r, row, other, (uint32_t)(k->row_at + n));
+
+    return rest_within(fix_mul_scaled(left_q60, other->inverse) >> 30, CAROM_ONE_Q30);
+}
+
 /* Factor row i of joint j; the rows before it are done. */
 static void factor_row(struct rest *r, const struct joint *j, int i)
 {
@@ -143,33 +158,25 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
     uint64_t length2_q60 = 0;
     int64_t pivot_q60;
 
-    memset(c, 0, (place - row->first + 1) * sizeof *c);
     for (struct joint *k = first_of(r);; k = next_of(r, k)) {
-        uint32_t end = k == j ? (uint32_t)i : k->work.held;
+        int end = k == j ? i : k->work.held;
 
-        for (uint32_t n = 0; n < end && k->work.row_at + n >= row->first; n++) {
-            c[k->work.row_at + n - row->first] =
-                rest_within(joint_entry_q30(work, i, &k->work, (int)n), CAROM_ONE_Q30);
+        for (int n = 0; n < end && k->work.row_at >= row->first; n++) {
+            int32_t entry = entry_of(r, work, i, &k->work, n);
+            uint64_t square_q60 = (uint64_t)((int64_t)entry * entry);
+
+            if (length2_q60 + square_q60 > LENGTH2_MAX_Q60) {
+                entry = 0;
+                square_q60 = 0;
+            }
+            length2_q60 += square_q60;
+            c[k->work.row_at + n - row->first] = entry;
         }
         if (k == j) {
             break;
         }
     }
-    for (uint32_t n = row->first; n < place; n++) {
-        const struct joint_row *other = &r->joints.rows[n];
-        int64_t left = carom_shl(c[n - row->first], 30) - product_q60(r, row, other, n);
-        int32_t entry = rest_within(fix_mul_scaled(left, other->inverse) >> 30, CAROM_ONE_Q30);
-        uint64_t square_q60 = (uint64_t)((int64_t)entry * entry);
-
-        if (length2_q60 + square_q60 > LENGTH2_MAX_Q60) {
-            entry = 0;
-            square_q60 = 0;
-        }
-        length2_q60 += square_q60;
-        c[n - row->first] = entry;
-    }
-    pivot_q60 = carom_shl(rest_within(joint_entry_q30(work, i, work, i), INT32_MAX), 30) -
-                (int64_t)length2_q60;
+    pivot_q60 = joint_entry(work, i, work, i, 60) - (int64_t)length2_q60;
     row->inverse = (struct fix_scaled){0, 0};
     if (!is_noise(r, place, pivot_q60)) {
         row->inverse = fix_scaled_inverse(fix_scale((int64_t)fix_sqrt((uint64_t)pivot_q60), 30));

@@ -14,10 +14,11 @@ bool joint_prepare(struct joint *j, const struct carom_joint_drive *drive,
 /* Set the law of a spring, and how long it pulls. */
 void joint_prepare_spring(struct joint_work *work, const struct carom_joint_drive *d);
 /*
- * The change of V of row i of a by an impulse of 1 along row k of b, q30: an entry of K if a and b
- * are the same joint.
+ * The change of V of row i of a by an impulse of 1 along row k of b, in the format q: an entry of K
+ * if a and b are the same joint. In q60, for rows that are scaled, it is exact but for two units,
+ * so that a row that repeats others leaves a pivot of next to nothing.
  */
-int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_work *b, int k);
+int64_t joint_entry(const struct joint_work *a, int i, const struct joint_work *b, int k, int q);
 /*
  * Factor the matrix of all held rows of the island; false if the room is too small. Solve with the
  * factors; returns how much a velocity moved.

@@ -80,7 +80,7 @@ static void prepare_joint_shares(struct joint_work *work, const struct body *lig
 
 /* ----------------------------------------------------------------------------- K */
 
-int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_work *b, int k)
+int64_t joint_entry(const struct joint_work *a, int i, const struct joint_work *b, int k, int q)
 {
     int64_t sum = 0;
 
@@ -89,18 +89,19 @@ int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_wo
 
         for (int t = 0; t < 2 && own->body; t++) {
             const struct joint_lever *other = &b->lever[t];
-            int64_t part = 0;
+            int64_t part;
 
             if (other->body != own->body) {
                 continue;
             }
+            part = fix_mul(carom_dot(own->turn[i], other->turn[k]), own->share_q30,
+                           92 - q - 2 * own->body->solve.turn_bits);
             if (!joint_is_angular(a, i) && !joint_is_angular(b, k)) {
-                part = fix_round_shift(carom_round(carom_dot(a->direction[i], b->direction[k]), 30),
-                                       -a->down - b->down);
+                int64_t d_q60 = carom_dot(a->direction[i], b->direction[k]);
+
+                part +=
+                    fix_round_shift(fix_mul_q30(d_q60, own->share_q30), q - 60 - a->down - b->down);
             }
-            part += fix_round_shift(carom_dot(own->turn[i], other->turn[k]),
-                                    -(32 - 2 * own->body->solve.turn_bits));
-            part = fix_mul_q30(part, own->share_q30);
             sum += s == t ? part : -part;
         }
     }
@@ -114,7 +115,7 @@ static int bits_above(const struct joint_work *work, bool angular)
 
     for (int i = 0; i < work->rows; i++) {
         if (joint_is_angular(work, i) == angular) {
-            int64_t own = joint_entry_q30(work, i, work, i);
+            int64_t own = joint_entry(work, i, work, i, 30);
 
             most = own > most ? own : most;
         }
@@ -126,6 +127,24 @@ static int bits_above(const struct joint_work *work, bool angular)
 static int half_up(int n)
 {
     return n >= 0 ? (n + 1) / 2 : -(-n / 2);
+}
+
+/*
+ * Scale the rows so that no diagonal entry of K is above 1, then none of A is. Returns true if the
+ * turns must be set anew. Turns that were cut to their range hide how long they are, so this goes
+ * on until the entries are short; only the first time they may also be lengthened.
+ */
+static bool scale_rows(struct joint_work *work, bool first)
+{
+    int linear = half_up(bits_above(work, false)), angular = half_up(bits_above(work, true));
+
+    if (!first) {
+        linear = linear > 0 ? linear : 0;
+        angular = angular > 0 ? angular : 0;
+    }
+    work->down = (int8_t)(work->down + linear);
+    work->length_bits = (int8_t)(work->length_bits - angular);
+    return linear != 0 || angular != 0;
 }
 
 /*
@@ -183,7 +202,7 @@ static void invert_k(struct joint_work *work)
 
     for (int i = 0; i < n; i++) {
         for (int k = 0; k <= i; k++) {
-            k_q30[i][k] = k_q30[k][i] = joint_entry_q30(work, i, work, k);
+            k_q30[i][k] = k_q30[k][i] = carom_round(joint_entry(work, i, work, k, 60), 30);
         }
     }
     invert(k_q30, n);
@@ -221,16 +240,13 @@ bool joint_prepare(struct joint *j, const struct carom_joint_drive *drive,
     work->down = 0;
     work->length_bits =
         (work->lever[0].body ? work->lever[0].body : work->lever[1].body)->def.unit_bits;
-    for (int pass = 0; pass < 2; pass++) {
+    for (bool first = true, scaled = true; scaled; first = false) {
         for (int s = 0; s < 2; s++) {
             if (work->lever[s].body && !prepare_turns(work, &work->lever[s])) {
                 return false;
             }
         }
-        if (pass == 0) {
-            work->down = (int8_t)half_up(bits_above(work, false));
-            work->length_bits = (int8_t)(work->length_bits - half_up(bits_above(work, true)));
-        }
+        scaled = scale_rows(work, first);
     }
     invert_k(work);
     for (int i = 0; i < work->rows; i++) {

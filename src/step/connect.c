@@ -23,6 +23,7 @@ static void begin(struct step *s)
         struct joint_state *state = &list->states[i];
 
         list->joints[i].work.pulled_q30 = 0;
+        list->joints[i].work.given2 = (struct fix_wide){0, 0};
         list->joints[i].work.second_q40 = 0;
         list->joints[i].work.pull_most_q30 = CAROM_ONE_Q30;
         if (list->joints[i].used && connect_answers(s, list->joints[i].a)) {
@@ -170,7 +171,7 @@ const struct step_joint_calls step_joint_calls = {
     .measure = connect_measure,
     .project = project,
     .break_joints = break_joints,
-    .add_springs2 = connect_add_springs2,
+    .add_joints2 = connect_add_joints2,
     .owed2 = connect_owed2,
     .ground = connect_ground,
     .led_by = connect_find_led,

@@ -11,6 +11,7 @@
 struct account {
     struct fix_wide before, kinetic; /* of motion, at the start and the end of the frame */
     struct fix_wide left;   /* of bodies that left the world in the frame; not in kinetic */
+    struct fix_wide taken;  /* by limits and damping of joints */
     struct fix_wide excess; /* gain over the energy at the start and over what contact may lift */
 };
 
@@ -53,8 +54,9 @@ static bool may_gain(const struct step *s, uint32_t first)
 /* Sum up what an island gained, with the bodies that left the world in this frame. */
 static struct account audit(const struct step *s, uint32_t first)
 {
-    struct account sum = {{0, 0}, {0, 0}, {0, 0}, {0, 0}};
+    struct account sum;
 
+    memset(&sum, 0, sizeof sum);
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
@@ -70,7 +72,7 @@ static struct account audit(const struct step *s, uint32_t first)
     fix_wide_add(&sum.excess, &sum.left);
     fix_wide_subtract(&sum.excess, &sum.before);
     if (s->w->joint_steps) {
-        s->w->joint_steps->add_springs2(s, first, &sum.excess);
+        s->w->joint_steps->add_joints2(s, first, &sum.excess, &sum.taken);
     }
     return sum;
 }
@@ -306,9 +308,25 @@ static bool is_snatched(const struct account *sum)
 }
 
 /*
+ * Take what limits and damping took out of a loss: what is left may be given back. It does not make
+ * a gain: within the frame they also take what solves gave, and the island would owe energy that it
+ * never had.
+ */
+static void forgive_taken(struct account *sum)
+{
+    if (fix_wide_sign(&sum->excess) < 0) {
+        fix_wide_add(&sum->excess, &sum->taken);
+        if (fix_wide_sign(&sum->excess) > 0) {
+            sum->excess = (struct fix_wide){0, 0};
+        }
+    }
+}
+
+/*
  * Conserve the energy of an island that nothing touched: joints do no work, only motors do (audit
- * counts what springs store). A surplus or a lack is corrected as far as the motion allows. The
- * rest is owed: a pendulum that turns back has hardly any motion.
+ * counts what springs store), and limits and damping may take some. A surplus or a lack is
+ * corrected as far as the motion allows. The rest is owed: a pendulum that turns back has hardly
+ * any motion.
  */
 static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
 {
@@ -318,6 +336,7 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
     struct rest_rigid rigid;
     int32_t factor, least;
 
+    forgive_taken(&sum);
     if (!is_snatched(&sum)) {
         fix_wide_add(owed2, &sum.excess);
     }

@@ -19,18 +19,27 @@ static void add_spring2(struct fix_wide *sum, const struct joint *j,
     fix_wide_add_product(sum, fix_wide_shift(&pull, 40), times * x_q40);
 }
 
-/* Add the energy that the springs of an island took up in the frame. */
-void connect_add_springs2(const struct step *s, uint32_t first, struct fix_wide *sum)
+/*
+ * Add the energy that the springs of an island took up in the frame to what it gained; set what its
+ * limits and damping took. They may not give any.
+ */
+void connect_add_joints2(const struct step *s, uint32_t first, struct fix_wide *gained,
+                         struct fix_wide *taken)
 {
     const struct joint_list *list = &s->w->rest.joints;
 
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (joint_holds(list, i) && s->w->bodies[j->a].island.lowest == first &&
-            s->next->joints[i].drive.spring) {
-            add_spring2(sum, j, &list->states[i], s->next->bodies, 1);
-            add_spring2(sum, j, &list->states[i], world_now(s->w)->bodies, -1);
+        if (!joint_holds(list, i) || s->w->bodies[j->a].island.lowest != first) {
+            continue;
+        }
+        if (s->next->joints[i].drive.spring) {
+            add_spring2(gained, j, &list->states[i], s->next->bodies, 1);
+            add_spring2(gained, j, &list->states[i], world_now(s->w)->bodies, -1);
+        }
+        if (fix_wide_sign(&j->work.given2) < 0) {
+            fix_wide_subtract(taken, &j->work.given2);
         }
     }
 }

@@ -129,7 +129,8 @@ struct step_joint_calls {
      * energy of an island: add what springs hold; what is owed; note islands held by stationary
      * bodies
      */
-    void (*add_springs2)(const struct step *s, uint32_t first, struct fix_wide *sum);
+    void (*add_joints2)(const struct step *s, uint32_t first, struct fix_wide *gained,
+                         struct fix_wide *taken);
     struct fix_wide *(*owed2)(const struct step *s, uint32_t first);
     void (*ground)(struct step *s);
     /*

@@ -127,19 +127,20 @@ static enum crowd_where where_is(const struct crowd *crowd, int a, int b, double
 
 /*
  * A body gets from one side of a surface to the other only beside it. Bodies begin over it. Once a
- * body was beside it, it may have gone there and back within a frame.
+ * body was beside it, or if it swings by a joint, it may have gone there and back within a frame.
  */
 static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int b = 0; b < crowd->body_count; b++) {
         for (int a = 0; a < crowd->body_count && is_surface(crowd, b); a++) {
             enum crowd_where was = (enum crowd_where)crowd->where[a], now;
+            const bool turns_back = crowd->beside[a] || crowd->bodies[a].linked;
 
             if (is_still(&crowd->bodies[a]) || crowd->bodies[a].now.state.out ||
                 crowd->pass[a][b] != CROWD_MEET) {
                 continue;
             }
-            now = where_is(crowd, a, b, crowd->beside[a] ? way_of(crowd, a) : 0);
+            now = where_is(crowd, a, b, turns_back ? way_of(crowd, a) : 0);
             crowd->beside[a] |= now == CROWD_BESIDE;
             if (was != CROWD_BESIDE && now != CROWD_BESIDE && now != was) {
                 note_inside(tally, a, b);
