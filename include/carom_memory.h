@@ -132,7 +132,7 @@ size_t carom_world_bytes(const struct carom_caps *caps);
 /** Bytes of a block for each candidate. */
 #define CAROM_CANDIDATE_BYTES 12
 /** Bytes of a block for each joint. */
-#define CAROM_JOINT_BYTES CAROM_BYTES_(2176, 2200)
+#define CAROM_JOINT_BYTES CAROM_BYTES_(2192, 2216)
 /** Bytes of a block for each extra. */
 #define CAROM_EXTRA_BYTES CAROM_BYTES_(208, 216)
 /** Bytes of a block for each hit. */

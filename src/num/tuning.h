@@ -320,6 +320,11 @@
 #define JOINT_SWING_MOST_Q30 (CAROM_ONE_Q30 / 3)
 #define JOINT_PULL_LEAST_Q30 (CAROM_ONE_Q30 / 16)
 /*
+ * A pull that goes on beyond the end of its slice by more than this part of itself is cut to the
+ * slice. Chosen; in joint_measure.c.
+ */
+#define STEP_PULL_OVER_DIVISOR 2
+/*
  * Radians that what joints hold turns in a slice at most. Chosen: anchors part by what that bends,
  * and solves see it as straight. In joint_measure.c.
  */

@@ -93,6 +93,9 @@ struct joint_work {
     int64_t second_q40, push_q40; /* the other half; the one that this solve gives */
     /* the time up to which its pull is in the velocities; the longest pull, by its stiffness */
     int32_t pulled_q30, pull_most_q30;
+    /* the last pull: its impulse and its time, and how much of that a later round takes back */
+    int64_t given_q40;
+    int32_t given_q30, back_q30;
     /* twice the energy that limits and damping gave in the frame; negative: took */
     struct fix_wide given2;
     int64_t spring_q40, stiff_q40; /* its change of V, and its impulse by V */

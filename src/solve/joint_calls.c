@@ -318,6 +318,17 @@ static bool at_limit(const struct joint_work *work, int64_t before_q40, int64_t 
            (change_q40 <= work->low_q40 + near_q40 || change_q40 >= work->high_q40 - near_q40);
 }
 
+/* A part of a spring's last pull was taken back. */
+static void take_back(struct joint_work *work)
+{
+    struct fix_scaled part = fix_ratio(work->back_q30, work->given_q30);
+
+    work->second_q40 -= fix_mul_scaled(work->second_q40, part);
+    work->given_q40 += work->push_q40;
+    work->given_q30 -= work->back_q30;
+    work->pulled_q30 -= work->back_q30;
+}
+
 /*
  * Book the work of the last row's impulse: a motor's, and apart from it that of limits and damping.
  * A spring's own is not booked, since add_joints2 counts what it stores.
@@ -334,10 +345,19 @@ static void book_drive(struct rest *r, struct joint *j)
         int64_t pull_q40 =
             -work->elastic_q40 - joint_product_q40(work->half_stiff_q40, after_q40 - before_q40);
 
+        if (work->back_q30 > 0) {
+            take_back(work);
+        } else {
+            bool others = work->law.lower || work->law.motor; /* the impulse may be theirs */
+
+            work->given_q40 = others ? pull_q40 : p_q40 - work->push_q40;
+            work->given_q30 = work->pull_q30;
+            work->pulled_q30 += work->pull_q30;
+            /* what a limit stops has no second half: the limit would have to answer it */
+            work->second_q40 =
+                work->halved && !at_limit(work, before_q40, after_q40) ? pull_q40 : 0;
+        }
         p_q40 -= pull_q40 + work->push_q40;
-        work->pulled_q30 += work->pull_q30;
-        /* what a limit stops has no second half: the limit would have to answer it */
-        work->second_q40 = work->halved && !at_limit(work, before_q40, after_q40) ? pull_q40 : 0;
     }
     if (work->law.motor) {
         bool limited = work->law.lower; /* and upper: then a limit may have given a part of it */

@@ -159,23 +159,37 @@ static int64_t to_limit(int64_t room_q40, bool beyond, int64_t change_q40, int32
  * it gives a half of its impulse at the start of that time, and a half at the end. So it moves its
  * bodies as far as their weight does, which bends their paths; bodies that touch take their weight
  * at the start, too.
+ *
+ * A body that the pull sets spinning has a shorter slice, and at the end of it the spring has
+ * another direction or meets another mass. Then the next round takes back what was given for the
+ * time after the slice.
  */
 static void measure_spring(const struct step *s, struct joint *j, const struct joint_state *state,
                            int32_t slice_q30, enum joint_solve solve)
 {
     struct joint_work *work = &j->work;
     bool flies = connect_group_is_free(s, s->w->bodies[j->a].def.joined);
+    bool begins = solve == JOINT_FRAME || solve == JOINT_HIT;
+    int32_t over_q30;
 
     if (work->pulled_q30 == 0) {
         work->pulled_q30 = s->now_q30; /* the group may be awake only now */
     }
-    work->pull_q30 = solve == JOINT_FRAME || solve == JOINT_HIT
-                         ? fix_larger(s->now_q30 + slice_q30 - work->pulled_q30, 0)
-                         : 0;
+    over_q30 = work->pulled_q30 - s->now_q30 - slice_q30;
+    work->pull_q30 = begins ? fix_larger(-over_q30, 0) : 0;
     work->ahead_q30 = fix_larger(work->pulled_q30 - s->now_q30, 0);
     work->push_q40 = work->pull_q30 > 0 || !flies || solve == JOINT_PROJECT ? work->second_q40 : 0;
+    work->given_q30 = begins ? 0 : work->given_q30;
+    work->back_q30 = solve != JOINT_PROJECT && over_q30 > work->given_q30 / STEP_PULL_OVER_DIVISOR
+                         ? fix_smaller(over_q30, work->given_q30)
+                         : 0;
+    if (work->back_q30 > 0) {
+        work->push_q40 =
+            -fix_mul_scaled(work->given_q40, fix_ratio(work->back_q30, work->given_q30));
+    }
     work->halved = flies;
-    work->law.spring = state->drive.spring && (work->pull_q30 > 0 || work->push_q40 != 0);
+    work->law.spring =
+        state->drive.spring && (work->pull_q30 > 0 || work->push_q40 != 0 || work->back_q30 > 0);
 }
 
 /*
@@ -337,6 +351,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
     work->by_speed = solve == JOINT_PROJECT || slice_q30 < STEP_MEASURED_MIN_Q30;
+    work->back_q30 = 0;
     held_q40 = measure_held(s, j, &at, &to, slice_q30);
     if (solve == JOINT_PROJECT) {
         memset(work->wanted_q40, 0, sizeof work->wanted_q40);
@@ -345,7 +360,8 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
         last_q40 = measure_last(s, j, state, &at, &to, slice_q30, skin_q40, solve);
     }
     work->torn = !work->by_speed && held_q40 > STEP_TORN_SKINS * skin_q40;
-    return (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / STEP_LEFT_DIVISOR;
+    return work->back_q30 > 0 ||
+           (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / STEP_LEFT_DIVISOR;
 }
 
 bool connect_measure(struct step *s, enum joint_solve solve)

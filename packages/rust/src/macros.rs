@@ -56,7 +56,7 @@ pub const fn world_bytes(caps: &carom_caps) -> usize {
         + drift
         + mixed
         + n * 12
-        + j * bytes_by_pointer(2176, 2200)
+        + j * bytes_by_pointer(2192, 2216)
         + x * bytes_by_pointer(208, 216)
         + h * 40
         + more(solve, found + bytes_by_pointer(1880, 1952));
