@@ -210,8 +210,20 @@ static bool faces_cross(const struct interfere *in, const struct target *t, uint
         under |= (t->under >> corner[k] & 1) << k;
     }
     m.scale_q = scale_for(size);
-    return !intervals_apart(&m, p, t->p, corners_above(over, under),
-                            corners_above(t->corners_over, t->corners_under));
+    /*
+     * A corner at the other's plane may count as below it or as above it: the edges that one choice
+     * gives may part the faces by too little to be sure, and those of the other by far.
+     */
+    for (int k = 0; k < 4; k++) {
+        uint32_t over_p = k & 1 ? 7 & ~under : corners_above(over, under);
+        uint32_t over_q =
+            k & 2 ? 7 & ~t->corners_under : corners_above(t->corners_over, t->corners_under);
+
+        if (intervals_apart(&m, p, t->p, over_p, over_q)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static void list_pair(struct interfere *in, const struct target *t, uint32_t i)

@@ -333,10 +333,10 @@ static void take_back(struct joint_work *work)
  * Book the work of the last row's impulse: a motor's, and apart from it that of limits and damping.
  * A spring's own is not booked, since add_joints2 counts what it stores.
  */
-static void book_drive(struct rest *r, struct joint *j)
+static void book_drive(struct joint *j)
 {
     struct joint_work *work = &j->work;
-    struct fix_wide *sum = &r->bodies[j->a].solve.work2;
+    struct body *own = work->lever[0].body ? work->lever[0].body : work->lever[1].body;
     int last = work->rows - 1;
     int64_t before_q40 = work->speed_q40[last], p_q40 = work->row_q40[last];
     int64_t after_q40 = joint_speed_q40(work, last);
@@ -365,7 +365,7 @@ static void book_drive(struct rest *r, struct joint *j)
                             : limited && p_q40 < -work->most_q40 ? -work->most_q40
                                                                  : p_q40;
 
-        fix_wide_add_product(sum, motor_q40, before_q40 + after_q40);
+        fix_wide_add_product(&own->solve.work2, motor_q40, before_q40 + after_q40);
         p_q40 -= motor_q40;
     }
     fix_wide_add_product(&work->given2, p_q40, before_q40 + after_q40);
@@ -406,7 +406,7 @@ static void book(struct rest *r)
             state->axial_q40 + (work->held < work->rows ? work->row_q40[work->held] : 0), 60);
         refresh(r, j);
         if (work->held < work->rows && r->joints.solve != JOINT_PROJECT) {
-            book_drive(r, j);
+            book_drive(j);
         }
         if (work->led) {
             book_led(r, j);

@@ -12,7 +12,8 @@ struct account {
     struct fix_wide before, kinetic; /* of motion, at the start and the end of the frame */
     struct fix_wide left;   /* of bodies that left the world in the frame; not in kinetic */
     struct fix_wide taken;  /* by limits and damping of joints */
-    struct fix_wide excess; /* gain over the energy at the start and over what contact may lift */
+    /* gain over the energy at the start, less what was taken, and over what contact may lift */
+    struct fix_wide excess;
 };
 
 /*
@@ -73,6 +74,7 @@ static struct account audit(const struct step *s, uint32_t first)
     fix_wide_subtract(&sum.excess, &sum.before);
     if (s->w->joint_steps) {
         s->w->joint_steps->add_joints2(s, first, &sum.excess, &sum.taken);
+        fix_wide_add(&sum.excess, &sum.taken);
     }
     return sum;
 }
@@ -308,15 +310,15 @@ static bool is_snatched(const struct account *sum)
 }
 
 /*
- * Take what limits and damping took out of a loss: what is left may be given back. It does not make
- * a gain: within the frame they also take what solves gave, and the island would owe energy that it
- * never had.
+ * A gain of an island that nothing touched does not count as far as limits and damping took it again:
+ * within the frame they also take what solves gave, and the island would owe energy that it never
+ * had.
  */
 static void forgive_taken(struct account *sum)
 {
-    if (fix_wide_sign(&sum->excess) < 0) {
-        fix_wide_add(&sum->excess, &sum->taken);
-        if (fix_wide_sign(&sum->excess) > 0) {
+    if (fix_wide_sign(&sum->excess) > 0) {
+        fix_wide_subtract(&sum->excess, &sum->taken);
+        if (fix_wide_sign(&sum->excess) < 0) {
             sum->excess = (struct fix_wide){0, 0};
         }
     }
@@ -456,7 +458,8 @@ void step_limit_energy(struct step *s)
         w->bodies[p->a].clock.grounded |= !w->bodies[p->b].def.moving;
     }
     if (w->joint_steps) {
-        w->rest.joints.calls->join(&w->rest, s->next->bodies);
+        /* a body that leaves in this frame takes energy of its island along */
+        w->rest.joints.calls->join(&w->rest, world_now(w)->bodies);
         w->joint_steps->ground(s);
     }
     island_end(w->bodies, w->body_count);

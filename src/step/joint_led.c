@@ -4,6 +4,20 @@
 
 /* ------------------------------------------------------------------------- energy */
 
+/* True if no impulse moves a side of a joint; a body that left the world stays where it did. */
+static bool stands_fast(const struct step *s, uint16_t i)
+{
+    return i == JOINT_WORLD || !s->w->bodies[i].def.moving || s->next->bodies[i].out;
+}
+
+/* The island of a joint: that of the side which moves, or of either. */
+static uint32_t island_of(const struct step *s, const struct joint *j)
+{
+    uint16_t side = stands_fast(s, j->a) && j->b != JOINT_WORLD ? j->b : j->a;
+
+    return s->w->bodies[side].island.lowest;
+}
+
 /* Add `times` twice the energy that a spring stores: k x^2, q80. */
 static void add_spring2(struct fix_wide *sum, const struct joint *j,
                         const struct joint_state *state, const struct body_state *bodies, int times)
@@ -31,7 +45,7 @@ void connect_add_joints2(const struct step *s, uint32_t first, struct fix_wide *
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (!joint_holds(list, i) || s->w->bodies[j->a].island.lowest != first) {
+        if (!joint_holds(list, i) || island_of(s, j) != first) {
             continue;
         }
         if (s->next->joints[i].drive.spring) {
@@ -51,7 +65,7 @@ struct fix_wide *connect_owed2(const struct step *s, uint32_t first)
     struct joint_state *keeper = NULL;
 
     for (uint32_t i = 0; i < list->count; i++) {
-        if (joint_holds(list, i) && s->w->bodies[list->joints[i].a].island.lowest == first) {
+        if (joint_holds(list, i) && island_of(s, &list->joints[i]) == first) {
             struct joint_state *state = &list->states[i];
 
             if (!keeper) {
@@ -138,12 +152,6 @@ bool connect_yield(struct step *s)
         }
     }
     return any;
-}
-
-/* True if no impulse moves a side of a joint; a body that left the world stays where it did. */
-static bool stands_fast(const struct step *s, uint16_t i)
-{
-    return i == JOINT_WORLD || !s->w->bodies[i].def.moving || s->next->bodies[i].out;
 }
 
 /*

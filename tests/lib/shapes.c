@@ -57,18 +57,58 @@ void shape_box(struct shape *s, int quantum_bits, int x, int y, int z)
     build(s);
 }
 
-void shape_tetrahedron(struct shape *s, int quantum_bits, int size)
+static void tetrahedron(struct shape *s, int quantum_bits, int corners[4][3], int third, int fourth)
 {
     begin(s, quantum_bits, CAROM_SOLID);
-    add_vertex(s, size, size, size);
-    add_vertex(s, size, -size, -size);
-    add_vertex(s, -size, size, -size);
-    add_vertex(s, -size, -size, size);
+    for (int i = 0; i < 4; i++) {
+        const int *at = corners[i == 2 ? third : i == 3 ? fourth : i];
+
+        add_vertex(s, at[0], at[1], at[2]);
+    }
     add_face(s, 0, 1, 2);
     add_face(s, 0, 2, 3);
     add_face(s, 0, 3, 1);
     add_face(s, 1, 3, 2);
     build(s);
+}
+
+void shape_tetrahedron(struct shape *s, int quantum_bits, int size)
+{
+    int corners[4][3] = {
+        {size, size, size}, {size, -size, -size}, {-size, size, -size}, {-size, -size, size}};
+
+    tetrahedron(s, quantum_bits, corners, 2, 3);
+}
+
+/* Six times the volume, with a sign. */
+static int64_t volume_of(int corners[4][3])
+{
+    int32_t d[3][3];
+    int64_t cross[3];
+
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            d[i][k] = corners[i + 1][k] - corners[0][k];
+        }
+    }
+    fix_cross(cross, d[0], d[1]);
+    return cross[0] * d[2][0] + cross[1] * d[2][1] + cross[2] * d[2][2];
+}
+
+void shape_random_tetrahedron(struct shape *s, struct test_random *r)
+{
+    int corners[4][3];
+    int64_t volume;
+
+    do {
+        for (int i = 0; i < 4; i++) {
+            for (int k = 0; k < 3; k++) {
+                corners[i][k] = (int)test_random_range(r, -12, 12) * 64;
+            }
+        }
+        volume = volume_of(corners);
+    } while (carom_abs(volume) < (int64_t)1 << 28);
+    tetrahedron(s, 10, corners, volume < 0 ? 2 : 3, volume < 0 ? 3 : 2);
 }
 
 void shape_l(struct shape *s, int quantum_bits, int side)

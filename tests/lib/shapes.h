@@ -32,6 +32,12 @@ void shape_box(struct shape *s, int quantum_bits, int x, int y, int z);
 /* A regular tetrahedron with corners at (+-size, +-size, +-size). */
 void shape_tetrahedron(struct shape *s, int quantum_bits, int size);
 
+/*
+ * A tetrahedron whose random corners are whole 16ths of a unit, at most 12 from the origin along each axis; a
+ * flat one is drawn anew.
+ */
+void shape_random_tetrahedron(struct shape *s, struct test_random *r);
+
 /* An L of three cubes of the given side, about one of its corners. Has one concave edge. */
 void shape_l(struct shape *s, int quantum_bits, int side);
 
