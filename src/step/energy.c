@@ -10,8 +10,8 @@
 /* Twice the energies of an island, 80 fractional bits. */
 struct account {
     struct fix_wide before, kinetic; /* of motion, at the start and the end of the frame */
-    struct fix_wide left;   /* of bodies that left the world in the frame; not in kinetic */
-    struct fix_wide taken;  /* by limits and damping of joints */
+    struct fix_wide left;  /* of bodies that left the world in the frame; not in kinetic */
+    struct fix_wide taken; /* by limits and damping of joints */
     /* gain over the energy at the start, less what was taken, and over what contact may lift */
     struct fix_wide excess;
 };
