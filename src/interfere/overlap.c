@@ -194,6 +194,9 @@ static void add_pair(struct interfere *in, uint16_t face_a, uint16_t face_b)
 /*
  * True if face i of the leaf and b's face may have a common point. Precondition: each reaches the
  * other's plane.
+ *
+ * A corner at the other's plane may count as below it or as above it: the edges that one choice
+ * gives may part the faces by too little to be sure, and those of the other by far.
  */
 static bool faces_cross(const struct interfere *in, const struct target *t, uint32_t i)
 {
@@ -201,7 +204,7 @@ static bool faces_cross(const struct interfere *in, const struct target *t, uint
     const uint8_t *corner = interfere_corners(in, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     struct overlap m = {.scale_p = in->query->edge_scale, .near_q20 = l->near_q20};
-    uint32_t over = 0, under = 0;
+    uint32_t over = 0, under = 0, above_p[2], above_q[2];
     int32_t size = 0;
 
     for (int k = 0; k < 3; k++) {
@@ -210,16 +213,15 @@ static bool faces_cross(const struct interfere *in, const struct target *t, uint
         under |= (t->under >> corner[k] & 1) << k;
     }
     m.scale_q = scale_for(size);
-    /*
-     * A corner at the other's plane may count as below it or as above it: the edges that one choice
-     * gives may part the faces by too little to be sure, and those of the other by far.
-     */
+    above_p[0] = corners_above(over, under);
+    above_p[1] = 7 & ~under;
+    above_q[0] = corners_above(t->corners_over, t->corners_under);
+    above_q[1] = 7 & ~t->corners_under;
     for (int k = 0; k < 4; k++) {
-        uint32_t over_p = k & 1 ? 7 & ~under : corners_above(over, under);
-        uint32_t over_q =
-            k & 2 ? 7 & ~t->corners_under : corners_above(t->corners_over, t->corners_under);
+        bool repeats =
+            ((k & 1) && above_p[0] == above_p[1]) || ((k & 2) && above_q[0] == above_q[1]);
 
-        if (intervals_apart(&m, p, t->p, over_p, over_q)) {
+        if (!repeats && intervals_apart(&m, p, t->p, above_p[k & 1], above_q[k >> 1])) {
             return false;
         }
     }

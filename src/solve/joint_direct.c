@@ -134,8 +134,8 @@ static bool is_noise(struct rest *r, uint32_t place, int64_t pivot_q60)
 }
 
 /*
- * The entry of C in row i of joint j and row `at` of the island, which is row n of joint k. The
- * entries before it are done.
+ * The entry of C in row i of joint j, in the column of row n of joint k. The entries before it are
+ * done.
  */
 static int32_t entry_of(const struct rest *r, const struct joint_work *j, int i,
                         const struct joint_work *k, int n)
