@@ -96,8 +96,6 @@ struct joint_work {
     /* the last pull: its impulse and its time, and how much of that a later round takes back */
     int64_t given_q40;
     int32_t given_q30, back_q30;
-    /* twice the energy that limits and damping gave in the frame; negative: took */
-    struct fix_wide given2;
     int64_t spring_q40, stiff_q40; /* its change of V, and its impulse by V */
     /* its impulse without damping: -elastic - half_stiff (V' - V) */
     int64_t elastic_q40, half_stiff_q40;
@@ -108,6 +106,8 @@ struct joint_work {
     /* after them: totals on a */
     carom_v3_q40 push, moment;
     int64_t row_q40[JOINT_ROWS];
+    /* twice the energy that limits and damping gave in the frame; negative: took */
+    struct fix_wide given2;
 };
 
 static inline bool joint_is_angular(const struct joint_work *work, int row)

@@ -94,6 +94,7 @@ int64_t joint_entry(const struct joint_work *a, int i, const struct joint_work *
             if (other->body != own->body) {
                 continue;
             }
+            /* turns have 31 - turn_bits fractional bits each, the share has 30 */
             part = fix_mul(carom_dot(own->turn[i], other->turn[k]), own->share_q30,
                            92 - q - 2 * own->body->solve.turn_bits);
             if (!joint_is_angular(a, i) && !joint_is_angular(b, k)) {

@@ -24,7 +24,7 @@ static void begin(struct step *s)
 
         list->joints[i].work.pulled_q30 = 0;
         list->joints[i].work.given2 = (struct fix_wide){0, 0};
-        list->joints[i].work.given_q30 = 0;
+        list->joints[i].work.given_q30 = list->joints[i].work.back_q30 = 0;
         list->joints[i].work.second_q40 = 0;
         list->joints[i].work.pull_most_q30 = CAROM_ONE_Q30;
         if (list->joints[i].used && connect_answers(s, list->joints[i].a)) {

@@ -310,9 +310,9 @@ static bool is_snatched(const struct account *sum)
 }
 
 /*
- * A gain of an island that nothing touched does not count as far as limits and damping took it again:
- * within the frame they also take what solves gave, and the island would owe energy that it never
- * had.
+ * A gain of an island that nothing touched does not count as far as limits and damping took it
+ * again: within the frame they also take what solves gave, and the island would owe energy that it
+ * never had.
  */
 static void forgive_taken(struct account *sum)
 {

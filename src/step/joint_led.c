@@ -34,8 +34,8 @@ static void add_spring2(struct fix_wide *sum, const struct joint *j,
 }
 
 /*
- * Add the energy that the springs of an island took up in the frame to what it gained; set what its
- * limits and damping took. They may not give any.
+ * Add the energy that the springs of an island took up in the frame to `gained`, and what its
+ * limits and damping took to `taken`. They may not give any.
  */
 void connect_add_joints2(const struct step *s, uint32_t first, struct fix_wide *gained,
                          struct fix_wide *taken)

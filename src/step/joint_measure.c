@@ -351,7 +351,6 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
     work->by_speed = solve == JOINT_PROJECT || slice_q30 < STEP_MEASURED_MIN_Q30;
-    work->back_q30 = 0;
     held_q40 = measure_held(s, j, &at, &to, slice_q30);
     if (solve == JOINT_PROJECT) {
         memset(work->wanted_q40, 0, sizeof work->wanted_q40);

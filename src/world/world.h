@@ -126,8 +126,8 @@ struct step_joint_calls {
     void (*project)(struct step *s);
     int (*break_joints)(struct step *s); /* CAROM_OK or CAROM_ERR_PAIRS_FULL */
     /*
-     * energy of an island: add what springs hold; what is owed; note islands held by stationary
-     * bodies
+     * energy of an island: add what springs took up, and what limits and damping took; what is
+     * owed; note islands held by stationary bodies
      */
     void (*add_joints2)(const struct step *s, uint32_t first, struct fix_wide *gained,
                         struct fix_wide *taken);
