@@ -39,7 +39,7 @@ bool connect_group_is_free(const struct step *s, uint16_t group);
 int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30);
 bool connect_measure(struct step *s, enum joint_solve solve);
 void connect_add_joints2(const struct step *s, uint32_t first, struct fix_wide *gained,
-                         struct fix_wide *taken);
+                         struct fix_wide *taken, struct fix_wide *kept);
 struct fix_wide *connect_owed2(const struct step *s, uint32_t first);
 uint32_t connect_find_led(const struct step *s, uint32_t first, uint32_t led);
 void connect_block_leaders(struct step *s);

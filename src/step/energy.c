@@ -6,12 +6,15 @@
 
 /* Rounding may add this part of the kinetic energy: an excess below 2^-24 of it is ignored. */
 #define SLACK_BITS 24
+/* Joints may keep a gain of 2^-11 of the energy, the accuracy of their solve over a frame. */
+#define JOINT_SLACK_BITS 11
 
 /* Twice the energies of an island, 80 fractional bits. */
 struct account {
     struct fix_wide before, kinetic; /* of motion, at the start and the end of the frame */
     struct fix_wide left;  /* of bodies that left the world in the frame; not in kinetic */
     struct fix_wide taken; /* by limits and damping of joints */
+    struct fix_wide kept;  /* by springs, at the start */
     /* gain over the energy at the start, less what was taken, and over what contact may lift */
     struct fix_wide excess;
 };
@@ -73,7 +76,7 @@ static struct account audit(const struct step *s, uint32_t first)
     fix_wide_add(&sum.excess, &sum.left);
     fix_wide_subtract(&sum.excess, &sum.before);
     if (s->w->joint_steps) {
-        s->w->joint_steps->add_joints2(s, first, &sum.excess, &sum.taken);
+        s->w->joint_steps->add_joints2(s, first, &sum.excess, &sum.taken, &sum.kept);
         fix_wide_add(&sum.excess, &sum.taken);
     }
     return sum;
@@ -155,16 +158,16 @@ static uint32_t intruder(struct step *s, uint32_t body)
 }
 
 /*
- * Stop the island where the frame found it. Any island that went to that place is undone as well,
- * and so on: where the frame found them, no two bodies overlap. An island on the ground stops, too,
- * or both would do the same in each frame.
+ * Put the island back where the frame found it. Any island that went to that place is undone as
+ * well, and so on: where the frame found them, no two bodies overlap. Islands on the ground stop, or
+ * they would do the same in each frame.
  */
 static void hold_still(struct step *s, uint32_t first)
 {
     bool again = true;
 
     s->w->regions_stale = true;
-    rewind_island(s, first, true);
+    rewind_island(s, first, s->w->bodies[first].clock.grounded);
     while (again) {
         again = false;
         for (uint32_t i = 0; i < s->w->body_count; i++) {
@@ -325,35 +328,49 @@ static void forgive_taken(struct account *sum)
 }
 
 /*
- * Conserve the energy of an island that nothing touched: joints do no work, only motors do (audit
- * counts what springs store), and limits and damping may take some. A surplus or a lack is
- * corrected as far as the motion allows. The rest is owed: a pendulum that turns back has hardly
- * any motion.
+ * True if an island owes more than the accuracy of joints explains: half of the height that contact
+ * may lift, and a part of its energy.
  */
-static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
+static bool owes_much(const struct step *s, uint32_t first, const struct account *sum,
+                      const struct fix_wide *owed2)
 {
-    struct account sum = settle_left(s, first);
+    struct fix_wide energy = sum->before, over = *owed2, slack, again;
+
+    fix_wide_add(&energy, &sum->kept);
+    slack = fix_wide_down(&energy, JOINT_SLACK_BITS);
+    fix_wide_subtract(&over, &slack);
+    again = over;
+    fix_wide_add(&over, &again);
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
+        body_add_lift2(&over, &s->w->bodies[i], -1);
+    }
+    return fix_wide_sign(&over) > 0;
+}
+
+/*
+ * Take what an island owes out of its motion, or give back what it lacks, as far as the motion
+ * allows; `sum` has what the frame added.
+ */
+static void pay(struct step *s, uint32_t first, const struct account *sum, struct fix_wide *owed2)
+{
     bool grounded = s->w->bodies[first].clock.grounded;
-    struct fix_wide energy = sum.kinetic, changed;
+    struct fix_wide energy = sum->kinetic;
+    struct account now;
     struct rest_rigid rigid;
     int32_t factor, least;
 
-    forgive_taken(&sum);
-    if (!is_snatched(&sum)) {
-        fix_wide_add(owed2, &sum.excess);
-    }
     if (!grounded) {
         if (!rest_rigid_motion(&s->w->rest, first, &rigid)) {
             return;
         }
-        energy = beside2(s, &rigid, &sum.kinetic);
+        energy = beside2(s, &rigid, &sum->kinetic);
     }
     if (fix_wide_sign(&energy) <= 0 || fix_wide_sign(owed2) == 0) {
         return;
     }
     factor = lacks_much(&energy, owed2) ? STEP_CONSERVE_MOST_Q30 : factor_q30(&energy, owed2);
     /* the gain of this frame goes at once, whatever is left: a limit may have given it */
-    least = fix_wide_sign(&sum.excess) > 0 ? factor_q30(&energy, &sum.excess) : CAROM_ONE_Q30;
+    least = fix_wide_sign(&sum->excess) > 0 ? factor_q30(&energy, &sum->excess) : CAROM_ONE_Q30;
     least = least < STEP_CONSERVE_LEAST_Q30 ? least : STEP_CONSERVE_LEAST_Q30;
     factor = fix_larger(factor, least);
     if (grounded) {
@@ -361,10 +378,29 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
     } else {
         rest_scale_free(&s->w->rest, &rigid, factor);
     }
-    changed = sum.kinetic;
-    sum = audit(s, first);
-    fix_wide_subtract(&changed, &sum.kinetic);
-    fix_wide_subtract(owed2, &changed);
+    now = audit(s, first);
+    fix_wide_add(owed2, &now.kinetic);
+    fix_wide_subtract(owed2, &sum->kinetic);
+}
+
+/*
+ * Conserve the energy of an island that nothing touched: joints do no work, only motors do (audit
+ * counts what springs store), and limits and damping may take some. What the motion cannot pay is
+ * owed: a pendulum that turns back has hardly any. True if the frame left so large a debt that it
+ * must be undone.
+ */
+static bool conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
+{
+    struct account sum = settle_left(s, first);
+    struct fix_wide grown = *owed2;
+
+    forgive_taken(&sum);
+    if (!is_snatched(&sum)) {
+        fix_wide_add(owed2, &sum.excess);
+    }
+    pay(s, first, &sum, owed2);
+    fix_wide_subtract(&grown, owed2);
+    return fix_wide_sign(&grown) < 0 && owes_much(s, first, &sum, owed2);
 }
 
 /*
@@ -402,21 +438,57 @@ static bool limit_touched(struct step *s, uint32_t first, bool surely)
 
 /*
  * The very last resort for an island in the air: its turn about its centre gives what is left of the
- * excess. So it loses angular momentum; a gain of energy could go on growing.
+ * excess, or its whole motion does, or it stays where it was. So it loses momentum; a gain of energy
+ * could go on growing.
  */
-static void slow_turn(struct step *s, uint32_t first)
+static void slow_down(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
     struct rest_rigid common;
     struct fix_wide turn;
+    int32_t factor;
 
+    if (!s->w->bodies[first].clock.touched) {
+        forgive_taken(&sum);
+    }
     if (!gains(&sum) || !rest_rigid_motion(&s->w->rest, first, &common)) {
         return;
     }
     memset(&common.spin, 0, sizeof common.spin);
     turn = beside2(s, &common, &sum.kinetic);
-    rest_scale_turn(&s->w->rest, &common, factor_q30(&turn, &sum.excess));
+    factor = factor_q30(&turn, &sum.excess);
+    if (factor > 0) {
+        rest_scale_turn(&s->w->rest, &common, factor);
+    } else if (factor = factor_q30(&sum.kinetic, &sum.excess), factor > 0) {
+        rest_scale_grounded(&s->w->rest, first, factor);
+    } else {
+        hold_still(s, first);
+    }
     s->w->stats.calmed++;
+}
+
+/* Undo the frame of an island, or slow it down where that cannot be. */
+static void undo(struct step *s, uint32_t first)
+{
+    if (s->w->bodies[first].clock.grounded) {
+        hold_still(s, first);
+    } else if (!step_go_as_one(s, first)) {
+        slow_down(s, first);
+    }
+}
+
+/* Undo the frame of an island that nothing touched. It owes no more than before; `owed2` is that. */
+static void undo_untouched(struct step *s, uint32_t first, struct fix_wide *owed2)
+{
+    struct account sum;
+
+    undo(s, first);
+    sum = audit(s, first);
+    fix_wide_add(owed2, &sum.excess);
+    fix_wide_subtract(owed2, &sum.taken); /* in the frame that is undone */
+    if (fix_wide_sign(owed2) < 0) {
+        *owed2 = (struct fix_wide){0, 0};
+    }
 }
 
 /* The rule of an island: joints alone conserve, contact may not add. */
@@ -426,17 +498,20 @@ static void limit(struct step *s, uint32_t first)
     struct fix_wide *owed =
         s->w->joint_steps && b->def.mesh ? s->w->joint_steps->owed2(s, first) : NULL;
 
-    if (!b->clock.touched) {
-        if (owed) {
-            conserve_island(s, first, owed);
+    if (b->clock.touched) {
+        if (limit_touched(s, first, owed != NULL)) {
+            undo(s, first);
         }
-        return;
-    }
-    if (limit_touched(s, first, owed != NULL) && !step_go_as_one(s, first)) {
-        slow_turn(s, first);
-    }
-    if (owed) {
-        *owed = (struct fix_wide){0, 0};
+        if (owed) {
+            *owed = (struct fix_wide){0, 0};
+        }
+    } else if (owed) {
+        struct fix_wide before = *owed;
+
+        if (conserve_island(s, first, owed)) {
+            *owed = before;
+            undo_untouched(s, first, owed);
+        }
     }
 }
 

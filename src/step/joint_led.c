@@ -18,9 +18,9 @@ static uint32_t island_of(const struct step *s, const struct joint *j)
     return s->w->bodies[side].island.lowest;
 }
 
-/* Add `times` twice the energy that a spring stores: k x^2, q80. */
+/* Add twice the energy that a spring stores: k x^2, q80. */
 static void add_spring2(struct fix_wide *sum, const struct joint *j,
-                        const struct joint_state *state, const struct body_state *bodies, int times)
+                        const struct joint_state *state, const struct body_state *bodies)
 {
     struct joint_pose pose[2] = {world_joint_pose(bodies, j->a), world_joint_pose(bodies, j->b)};
     struct joint_error error;
@@ -30,15 +30,15 @@ static void add_spring2(struct fix_wide *sum, const struct joint *j,
     joint_measure(j, pose, &error);
     x_q40 = error.coordinate_q40 - carom_shl(state->drive.rest_q32, 8);
     pull = fix_wide_mul(state->drive.stiffness_q40, x_q40);
-    fix_wide_add_product(sum, fix_wide_shift(&pull, 40), times * x_q40);
+    fix_wide_add_product(sum, fix_wide_shift(&pull, 40), x_q40);
 }
 
 /*
- * Add the energy that the springs of an island took up in the frame to `gained`, and what its
- * limits and damping took to `taken`. They may not give any.
+ * Add the energy that the springs of an island took up in the frame to `gained`, what they had at
+ * its start to `kept`, and what its limits and damping took to `taken`. They may not give any.
  */
 void connect_add_joints2(const struct step *s, uint32_t first, struct fix_wide *gained,
-                         struct fix_wide *taken)
+                         struct fix_wide *taken, struct fix_wide *kept)
 {
     const struct joint_list *list = &s->w->rest.joints;
 
@@ -49,8 +49,12 @@ void connect_add_joints2(const struct step *s, uint32_t first, struct fix_wide *
             continue;
         }
         if (s->next->joints[i].drive.spring) {
-            add_spring2(gained, j, &list->states[i], s->next->bodies, 1);
-            add_spring2(gained, j, &list->states[i], world_now(s->w)->bodies, -1);
+            struct fix_wide before = {0, 0};
+
+            add_spring2(&before, j, &list->states[i], world_now(s->w)->bodies);
+            add_spring2(gained, j, &list->states[i], s->next->bodies);
+            fix_wide_subtract(gained, &before);
+            fix_wide_add(kept, &before);
         }
         if (fix_wide_sign(&j->work.given2) < 0) {
             fix_wide_subtract(taken, &j->work.given2);

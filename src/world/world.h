@@ -130,7 +130,7 @@ struct step_joint_calls {
      * owed; note islands held by stationary bodies
      */
     void (*add_joints2)(const struct step *s, uint32_t first, struct fix_wide *gained,
-                        struct fix_wide *taken);
+                        struct fix_wide *taken, struct fix_wide *kept);
     struct fix_wide *(*owed2)(const struct step *s, uint32_t first);
     void (*ground)(struct step *s);
     /*

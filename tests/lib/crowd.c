@@ -434,7 +434,7 @@ static double stored_in(const struct crowd *crowd, int island, double *rounding)
 
         if (link->there && crowd->bodies[link->a].island == island) {
             rise += link->stored[1] - link->stored[0];
-            *rounding += link->noise;
+            *rounding += link->noise[0] + link->noise[1];
         }
     }
     return rise;

@@ -58,7 +58,7 @@ struct crowd_link {
     int a, b;
     bool there, works; /* works: a motor, which does work */
     double stored[2];  /* energy that a spring holds, before the frame and after it */
-    double noise;      /* rounding of the spring's ends, as a part of that energy */
+    double noise[2];   /* what rounding of the spring's ends may add to each, or take from it */
 };
 
 /*

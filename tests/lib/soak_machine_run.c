@@ -169,8 +169,12 @@ static int add_joints(struct soak_world *w)
         }
         lab_expect(number == i ? CAROM_OK : CAROM_ERR_JOINT, "number of a joint");
         soak_joint_note(w->crowd, &m->joints[i]);
-        w->seen->links[i] = (struct crowd_link){
-            m->joints[i].def.a, m->joints[i].def.b, true, m->joints[i].def.drive.motor, {0, 0}, 0};
+        w->seen->links[i] = (struct crowd_link){m->joints[i].def.a,
+                                                m->joints[i].def.b,
+                                                true,
+                                                m->joints[i].def.drive.motor,
+                                                {0, 0},
+                                                {0, 0}};
         w->exact = w->exact && m->joints[i].def.b >= m->first &&
                    !w->crowd->bodies[m->joints[i].def.b].def.stationary;
     }

@@ -50,7 +50,7 @@ void soak_machine_before(struct soak_world *w)
 
         changed |= link->there == w->machine->joints[i].gone;
         link->there = !w->machine->joints[i].gone;
-        link->stored[0] = soak_joint_energy(w->crowd, &w->machine->joints[i], &link->noise);
+        link->stored[0] = soak_joint_energy(w->crowd, &w->machine->joints[i], &link->noise[0]);
     }
     if (changed) {
         crowd_group_links(w->crowd);
@@ -65,7 +65,7 @@ void soak_machine_see(struct soak_world *w)
     for (int i = 0; i < w->machine->joint_count; i++) {
         struct crowd_link *link = &w->seen->links[i];
 
-        link->stored[1] = soak_joint_energy(w->crowd, &w->machine->joints[i], &link->noise);
+        link->stored[1] = soak_joint_energy(w->crowd, &w->machine->joints[i], &link->noise[1]);
     }
 }
 
