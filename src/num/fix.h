@@ -220,7 +220,7 @@ int fix_wide_sign(const struct fix_wide *a);
 int fix_wide_bits(const struct fix_wide *a);
 /* floor(a / 2^s) truncated to 64 bits; 0 <= s <= 127. */
 int64_t fix_wide_shift(const struct fix_wide *a, int s);
-/* floor(a / 2^s); 0 < s < 64. */
+/* floor(a / 2^s); 0 <= s < 64. */
 struct fix_wide fix_wide_down(const struct fix_wide *a, int s);
 /* The bits of the largest of three. */
 int fix_wide_bits3(const struct fix_wide a[3]);

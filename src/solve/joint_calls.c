@@ -161,6 +161,8 @@ static bool prepare(struct rest *r)
 
     FOR_JOINTS(r, j)
     {
+        /* the other half would press what rests on a contact into it at the end of each frame */
+        j->work.halved = j->work.halved && r->count == 0;
         fit = joint_prepare(j, &state_of(r, j)->drive, lightest) && fit;
     }
     r->joints.factored = fit && joint_factor(r);

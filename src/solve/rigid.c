@@ -238,13 +238,20 @@ static bool find_motion(const struct rest *r, struct rest_rigid *rigid, const st
     return find_spin(r, rigid, &inertia, of->angular_q72);
 }
 
+bool rest_is_alone(const struct rest *r, uint32_t island)
+{
+    uint32_t first = rest_island_first(r, island);
+
+    return first == ISLAND_END || rest_island_next(r, first) == ISLAND_END;
+}
+
 bool rest_rigid_motion(const struct rest *r, uint32_t island, struct rest_rigid *rigid)
 {
     struct momenta all;
 
     memset(rigid, 0, sizeof *rigid);
     rigid->first = rest_island_first(r, island);
-    if (rigid->first == ISLAND_END || rest_island_next(r, rigid->first) == ISLAND_END) {
+    if (rigid->first == ISLAND_END) {
         return false;
     }
     rigid->centre = r->states[rigid->first].position;
@@ -376,7 +383,7 @@ void rest_unite(struct rest *r, uint32_t island, bool grounded)
 
     if (grounded) {
         rest_scale_grounded(r, island, 0);
-    } else if (rest_rigid_motion(r, island, &rigid)) {
+    } else if (!rest_is_alone(r, island) && rest_rigid_motion(r, island, &rigid)) {
         struct momenta all = sum_momenta(r, &rigid);
 
         set_momenta(r, &rigid, &all);

@@ -24,10 +24,11 @@ struct rest_rigid {
 /*
  * Find the rigid motion that has the momentum and the angular momentum of the island's active
  * bodies, to 30 bits. Uses the room of the dense system, which contact_work shares. Returns false
- * if the island has fewer than two active bodies, or is a line so thin that it has no inertia about
- * it.
+ * if the island has no active body, or is a line so thin that it has no inertia about it.
  */
 bool rest_rigid_motion(const struct rest *r, uint32_t island, struct rest_rigid *rigid);
+/* True if an island has fewer than two active bodies, so that its motion is that of a rigid body. */
+bool rest_is_alone(const struct rest *r, uint32_t island);
 /* The state of a body with the momenta that it has in that motion. */
 struct body_state rest_rigid_state(const struct rest *r, const struct rest_rigid *rigid,
                                    uint32_t i);

@@ -251,7 +251,8 @@ static struct account settle_left(struct step *s, uint32_t first)
 
 /*
  * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone has
- * more energy than it may have.
+ * more energy than it may have. One body may gain some that left its path for a hit which was no
+ * contact: between the ends of a slice a turning path does not keep the energy.
  */
 static bool limit_island(struct step *s, uint32_t first)
 {
@@ -271,6 +272,8 @@ static bool limit_island(struct step *s, uint32_t first)
         } else {
             rest_scale_grounded(&s->w->rest, first, factor);
         }
+    } else if (rest_is_alone(&s->w->rest, first)) {
+        return true;
     } else if (rest_rigid_motion(&s->w->rest, first, &rigid)) {
         struct fix_wide beside = beside2(s, &rigid, &sum.kinetic);
         int32_t factor = factor_q30(&beside, &sum.excess);
@@ -360,7 +363,7 @@ static void pay(struct step *s, uint32_t first, const struct account *sum, struc
     int32_t factor, least;
 
     if (!grounded) {
-        if (!rest_rigid_motion(&s->w->rest, first, &rigid)) {
+        if (rest_is_alone(&s->w->rest, first) || !rest_rigid_motion(&s->w->rest, first, &rigid)) {
             return;
         }
         energy = beside2(s, &rigid, &sum->kinetic);
