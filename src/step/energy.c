@@ -448,22 +448,26 @@ static void slow_down(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
     struct rest_rigid common;
-    struct fix_wide turn;
-    int32_t factor;
+    int32_t turn_q30 = 0, all_q30;
 
     if (!s->w->bodies[first].clock.touched) {
         forgive_taken(&sum);
     }
-    if (!gains(&sum) || !rest_rigid_motion(&s->w->rest, first, &common)) {
+    if (!gains(&sum)) {
         return;
     }
-    memset(&common.spin, 0, sizeof common.spin);
-    turn = beside2(s, &common, &sum.kinetic);
-    factor = factor_q30(&turn, &sum.excess);
-    if (factor > 0) {
-        rest_scale_turn(&s->w->rest, &common, factor);
-    } else if (factor = factor_q30(&sum.kinetic, &sum.excess), factor > 0) {
-        rest_scale_grounded(&s->w->rest, first, factor);
+    all_q30 = factor_q30(&sum.kinetic, &sum.excess);
+    if (rest_rigid_motion(&s->w->rest, first, &common)) {
+        struct fix_wide turn;
+
+        memset(&common.spin, 0, sizeof common.spin);
+        turn = beside2(s, &common, &sum.kinetic);
+        turn_q30 = factor_q30(&turn, &sum.excess);
+    }
+    if (turn_q30 > 0) {
+        rest_scale_turn(&s->w->rest, &common, turn_q30);
+    } else if (all_q30 > 0) {
+        rest_scale_grounded(&s->w->rest, first, all_q30);
     } else {
         hold_still(s, first);
     }
