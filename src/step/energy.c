@@ -254,7 +254,7 @@ static struct account settle_left(struct step *s, uint32_t first)
  * more energy than it may have. One body may gain some that left its path for a hit which was no
  * contact: between the ends of a slice a turning path does not keep the energy.
  */
-static bool limit_island(struct step *s, uint32_t first)
+static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
 {
     struct account sum = settle_left(s, first);
     struct rest_rigid rigid;
@@ -392,7 +392,7 @@ static void pay(struct step *s, uint32_t first, const struct account *sum, struc
  * owed: a pendulum that turns back has hardly any. True if the frame left so large a debt that it
  * must be undone.
  */
-static bool conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
+static FIX_OWN_FRAME bool conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
 {
     struct account sum = settle_left(s, first);
     struct fix_wide grown = *owed2;
@@ -444,7 +444,7 @@ static bool limit_touched(struct step *s, uint32_t first, bool surely)
  * excess, or its whole motion does, or it stays where it was. So it loses momentum; a gain of energy
  * could go on growing.
  */
-static void slow_down(struct step *s, uint32_t first)
+static FIX_OWN_FRAME void slow_down(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
     struct rest_rigid common;
@@ -484,13 +484,15 @@ static void undo(struct step *s, uint32_t first)
     }
 }
 
-/* Undo the frame of an island that nothing touched. It owes no more than before; `owed2` is that. */
-static void undo_untouched(struct step *s, uint32_t first, struct fix_wide *owed2)
+/*
+ * Set the debt of an island that nothing touched after its frame was undone; `owed2` is that before
+ * the frame.
+ */
+static FIX_OWN_FRAME void settle_undone(const struct step *s, uint32_t first,
+                                        struct fix_wide *owed2)
 {
-    struct account sum;
+    struct account sum = audit(s, first);
 
-    undo(s, first);
-    sum = audit(s, first);
     fix_wide_add(owed2, &sum.excess);
     fix_wide_subtract(owed2, &sum.taken); /* in the frame that is undone */
     if (fix_wide_sign(owed2) < 0) {
@@ -517,7 +519,8 @@ static void limit(struct step *s, uint32_t first)
 
         if (conserve_island(s, first, owed)) {
             *owed = before;
-            undo_untouched(s, first, owed);
+            undo(s, first);
+            settle_undone(s, first, owed);
         }
     }
 }
