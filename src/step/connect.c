@@ -174,6 +174,7 @@ const struct step_joint_calls step_joint_calls = {
     .break_joints = break_joints,
     .add_joints2 = connect_add_joints2,
     .owed2 = connect_owed2,
+    .conserve = connect_conserve,
     .ground = connect_ground,
     .led_by = connect_find_led,
     .block_leaders = connect_block_leaders,

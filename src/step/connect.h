@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * connect - declarations shared by the files that step joints: connect.c chooses the joints and
- * ends a frame for them, joint_measure.c computes where they will be, joint_led.c accounts for
- * energy and for kinematic bodies that lead others by joints.
+ * ends a frame for them, joint_measure.c computes where they will be, joint_energy.c accounts for
+ * their energy, joint_led.c for kinematic bodies that lead others by joints.
  */
 #ifndef CAROM_SRC_STEP_CONNECT_H
 #define CAROM_SRC_STEP_CONNECT_H
@@ -30,6 +30,12 @@ static inline bool connect_is_member(const struct step *s, uint16_t body)
     return body != JOINT_WORLD && s->w->bodies[body].clock.member;
 }
 
+/* True if no impulse moves a side of a joint; a body that left the world stays where it did. */
+static inline bool connect_stands_fast(const struct step *s, uint16_t i)
+{
+    return i == JOINT_WORLD || !s->w->bodies[i].def.moving || s->next->bodies[i].out;
+}
+
 /*
  * True if no contact held the bodies of a group, and all of them are awake and moved on their
  * paths.
@@ -41,6 +47,7 @@ bool connect_measure(struct step *s, enum joint_solve solve);
 void connect_add_joints2(const struct step *s, uint32_t first, struct fix_wide *gained,
                          struct fix_wide *taken, struct fix_wide *kept);
 struct fix_wide *connect_owed2(const struct step *s, uint32_t first);
+void connect_conserve(struct step *s, uint32_t first, struct fix_wide *owed2);
 uint32_t connect_find_led(const struct step *s, uint32_t first, uint32_t led);
 void connect_block_leaders(struct step *s);
 bool connect_yield(struct step *s);

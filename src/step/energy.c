@@ -1,23 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The energy rule of contact over a frame, island by island. */
 #include "../solve/parts.h"
-#include "../solve/rigid.h"
-#include "parts.h"
+#include "energy.h"
 
 /* Rounding may add this part of the kinetic energy: an excess below 2^-24 of it is ignored. */
 #define SLACK_BITS 24
-/* Joints may keep a gain of 2^-11 of the energy, the accuracy of their solve over a frame. */
-#define JOINT_SLACK_BITS 11
-
-/* Twice the energies of an island, 80 fractional bits. */
-struct account {
-    struct fix_wide before, kinetic; /* of motion, at the start and the end of the frame */
-    struct fix_wide left;  /* of bodies that left the world in the frame; not in kinetic */
-    struct fix_wide taken; /* by limits and damping of joints */
-    struct fix_wide kept;  /* by springs, at the start */
-    /* gain over the energy at the start, less what was taken, and over what contact may lift */
-    struct fix_wide excess;
-};
 
 /*
  * Add the gain in height, less what moving surfaces and closing skins account for: -2 m a.(way from
@@ -55,10 +42,9 @@ static bool may_gain(const struct step *s, uint32_t first)
     return fix_wide_sign(&most) > 0;
 }
 
-/* Sum up what an island gained, with the bodies that left the world in this frame. */
-static struct account audit(const struct step *s, uint32_t first)
+struct step_account step_audit(const struct step *s, uint32_t first)
 {
-    struct account sum;
+    struct step_account sum;
 
     memset(&sum, 0, sizeof sum);
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
@@ -82,9 +68,8 @@ static struct account audit(const struct step *s, uint32_t first)
     return sum;
 }
 
-/* Twice the kinetic energy of an island beyond that of its motion as one rigid body. */
-static struct fix_wide beside2(const struct step *s, const struct rest_rigid *rigid,
-                               const struct fix_wide *all)
+struct fix_wide step_beside2(const struct step *s, const struct rest_rigid *rigid,
+                             const struct fix_wide *all)
 {
     struct fix_wide sum = {0, 0}, beside = *all;
 
@@ -186,8 +171,7 @@ static void hold_still(struct step *s, uint32_t first)
     }
 }
 
-/* Factor for momenta that takes `excess` out of a kinetic energy; 0 if that is not enough. */
-static int32_t factor_q30(const struct fix_wide *kinetic, const struct fix_wide *excess)
+int32_t step_factor_q30(const struct fix_wide *kinetic, const struct fix_wide *excess)
 {
     struct fix_wide kept = *kinetic;
     struct fix_scaled ratio;
@@ -227,7 +211,7 @@ static void scale_left(struct step *s, uint32_t first, int32_t factor)
 }
 
 /* Take the slack of rounding from the excess; true if something is left. */
-static bool gains(const struct account *sum)
+static bool gains(const struct step_account *sum)
 {
     struct fix_wide over = sum->excess, all = sum->kinetic, slack;
 
@@ -237,14 +221,13 @@ static bool gains(const struct account *sum)
     return fix_wide_sign(&over) > 0;
 }
 
-/* Sum up an island after the bodies that left it gave what it gained, as far as they have it. */
-static struct account settle_left(struct step *s, uint32_t first)
+struct step_account step_settle_left(struct step *s, uint32_t first)
 {
-    struct account sum = audit(s, first);
+    struct step_account sum = step_audit(s, first);
 
     if (gains(&sum) && fix_wide_sign(&sum.left) > 0) {
-        scale_left(s, first, factor_q30(&sum.left, &sum.excess));
-        sum = audit(s, first);
+        scale_left(s, first, step_factor_q30(&sum.left, &sum.excess));
+        sum = step_audit(s, first);
     }
     return sum;
 }
@@ -256,14 +239,14 @@ static struct account settle_left(struct step *s, uint32_t first)
  */
 static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
 {
-    struct account sum = settle_left(s, first);
+    struct step_account sum = step_settle_left(s, first);
     struct rest_rigid rigid;
 
     if (!gains(&sum)) {
         return false;
     }
     if (s->w->bodies[first].clock.grounded) {
-        int32_t factor = factor_q30(&sum.kinetic, &sum.excess);
+        int32_t factor = step_factor_q30(&sum.kinetic, &sum.excess);
 
         if (factor == 0 && is_pushed(s, first)) {
             rest_scale_grounded(&s->w->rest, first, 0); /* the kinematic body may be where it was */
@@ -275,8 +258,8 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
     } else if (rest_is_alone(&s->w->rest, first)) {
         return true;
     } else if (rest_rigid_motion(&s->w->rest, first, &rigid)) {
-        struct fix_wide beside = beside2(s, &rigid, &sum.kinetic);
-        int32_t factor = factor_q30(&beside, &sum.excess);
+        struct fix_wide beside = step_beside2(s, &rigid, &sum.kinetic);
+        int32_t factor = step_factor_q30(&beside, &sum.excess);
 
         rest_scale_free(&s->w->rest, &rigid, factor);
         return factor == 0;
@@ -284,43 +267,7 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
     return false;
 }
 
-/* True if an energy must grow by more than STEP_CONSERVE_MOST_Q30 gives: (9 / 8)^2 - 1 of it. */
-static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owed2)
-{
-    struct fix_wide sum = fix_wide_down(energy, 2), more = fix_wide_down(energy, 6);
-
-    fix_wide_add(&sum, &more);
-    fix_wide_add(&sum, owed2);
-    return fix_wide_sign(&sum) < 0;
-}
-
-/*
- * True if a frame lost more than a quarter of the energy that moved in it: bodies set out against
- * their joints, or what they hung on stopped. That is an impact, and nothing to be given back.
- */
-static bool is_snatched(const struct account *sum)
-{
-    struct fix_wide moved = sum->before, most;
-
-    fix_wide_subtract(&moved, &sum->kinetic);
-    fix_wide_add(&moved, &sum->excess); /* what height and springs took up */
-    if (fix_wide_sign(&moved) < 0) {
-        most = (struct fix_wide){0, 0};
-        fix_wide_subtract(&most, &moved);
-        moved = most;
-    }
-    fix_wide_add(&moved, &sum->before);
-    most = fix_wide_down(&moved, 2);
-    fix_wide_add(&most, &sum->excess);
-    return fix_wide_sign(&most) < 0;
-}
-
-/*
- * A gain of an island that nothing touched does not count as far as limits and damping took it
- * again: within the frame they also take what solves gave, and the island would owe energy that it
- * never had.
- */
-static void forgive_taken(struct account *sum)
+void step_forgive_taken(struct step_account *sum)
 {
     if (fix_wide_sign(&sum->excess) > 0) {
         fix_wide_subtract(&sum->excess, &sum->taken);
@@ -328,82 +275,6 @@ static void forgive_taken(struct account *sum)
             sum->excess = (struct fix_wide){0, 0};
         }
     }
-}
-
-/*
- * True if an island owes more than the accuracy of joints explains: half of the height that contact
- * may lift, and a part of its energy.
- */
-static bool owes_much(const struct step *s, uint32_t first, const struct account *sum,
-                      const struct fix_wide *owed2)
-{
-    struct fix_wide energy = sum->before, over = *owed2, slack, again;
-
-    fix_wide_add(&energy, &sum->kept);
-    slack = fix_wide_down(&energy, JOINT_SLACK_BITS);
-    fix_wide_subtract(&over, &slack);
-    again = over;
-    fix_wide_add(&over, &again);
-    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
-        body_add_lift2(&over, &s->w->bodies[i], -1);
-    }
-    return fix_wide_sign(&over) > 0;
-}
-
-/*
- * Take what an island owes out of its motion, or give back what it lacks, as far as the motion
- * allows; `sum` has what the frame added.
- */
-static void pay(struct step *s, uint32_t first, const struct account *sum, struct fix_wide *owed2)
-{
-    bool grounded = s->w->bodies[first].clock.grounded;
-    struct fix_wide energy = sum->kinetic;
-    struct account now;
-    struct rest_rigid rigid;
-    int32_t factor, least;
-
-    if (!grounded) {
-        if (rest_is_alone(&s->w->rest, first) || !rest_rigid_motion(&s->w->rest, first, &rigid)) {
-            return;
-        }
-        energy = beside2(s, &rigid, &sum->kinetic);
-    }
-    if (fix_wide_sign(&energy) <= 0 || fix_wide_sign(owed2) == 0) {
-        return;
-    }
-    factor = lacks_much(&energy, owed2) ? STEP_CONSERVE_MOST_Q30 : factor_q30(&energy, owed2);
-    /* the gain of this frame goes at once, whatever is left: a limit may have given it */
-    least = fix_wide_sign(&sum->excess) > 0 ? factor_q30(&energy, &sum->excess) : CAROM_ONE_Q30;
-    least = least < STEP_CONSERVE_LEAST_Q30 ? least : STEP_CONSERVE_LEAST_Q30;
-    factor = fix_larger(factor, least);
-    if (grounded) {
-        rest_scale_grounded(&s->w->rest, first, factor);
-    } else {
-        rest_scale_free(&s->w->rest, &rigid, factor);
-    }
-    now = audit(s, first);
-    fix_wide_add(owed2, &now.kinetic);
-    fix_wide_subtract(owed2, &sum->kinetic);
-}
-
-/*
- * Conserve the energy of an island that nothing touched: joints do no work, only motors do (audit
- * counts what springs store), and limits and damping may take some. What the motion cannot pay is
- * owed: a pendulum that turns back has hardly any. True if the frame left so large a debt that it
- * must be undone.
- */
-static FIX_OWN_FRAME bool conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
-{
-    struct account sum = settle_left(s, first);
-    struct fix_wide grown = *owed2;
-
-    forgive_taken(&sum);
-    if (!is_snatched(&sum)) {
-        fix_wide_add(owed2, &sum.excess);
-    }
-    pay(s, first, &sum, owed2);
-    fix_wide_subtract(&grown, owed2);
-    return fix_wide_sign(&grown) < 0 && owes_much(s, first, &sum, owed2);
 }
 
 /*
@@ -446,23 +317,23 @@ static bool limit_touched(struct step *s, uint32_t first, bool surely)
  */
 static FIX_OWN_FRAME void slow_down(struct step *s, uint32_t first)
 {
-    struct account sum = audit(s, first);
+    struct step_account sum = step_audit(s, first);
     struct rest_rigid common;
     int32_t turn_q30 = 0, all_q30;
 
     if (!s->w->bodies[first].clock.touched) {
-        forgive_taken(&sum);
+        step_forgive_taken(&sum);
     }
     if (!gains(&sum)) {
         return;
     }
-    all_q30 = factor_q30(&sum.kinetic, &sum.excess);
+    all_q30 = step_factor_q30(&sum.kinetic, &sum.excess);
     if (rest_rigid_motion(&s->w->rest, first, &common)) {
         struct fix_wide turn;
 
         memset(&common.spin, 0, sizeof common.spin);
-        turn = beside2(s, &common, &sum.kinetic);
-        turn_q30 = factor_q30(&turn, &sum.excess);
+        turn = step_beside2(s, &common, &sum.kinetic);
+        turn_q30 = step_factor_q30(&turn, &sum.excess);
     }
     if (turn_q30 > 0) {
         rest_scale_turn(&s->w->rest, &common, turn_q30);
@@ -474,29 +345,12 @@ static FIX_OWN_FRAME void slow_down(struct step *s, uint32_t first)
     s->w->stats.calmed++;
 }
 
-/* Undo the frame of an island, or slow it down where that cannot be. */
-static void undo(struct step *s, uint32_t first)
+void step_undo(struct step *s, uint32_t first)
 {
     if (s->w->bodies[first].clock.grounded) {
         hold_still(s, first);
     } else if (!step_go_as_one(s, first)) {
         slow_down(s, first);
-    }
-}
-
-/*
- * Set the debt of an island that nothing touched after its frame was undone; `owed2` is that before
- * the frame.
- */
-static FIX_OWN_FRAME void settle_undone(const struct step *s, uint32_t first,
-                                        struct fix_wide *owed2)
-{
-    struct account sum = audit(s, first);
-
-    fix_wide_add(owed2, &sum.excess);
-    fix_wide_subtract(owed2, &sum.taken); /* in the frame that is undone */
-    if (fix_wide_sign(owed2) < 0) {
-        *owed2 = (struct fix_wide){0, 0};
     }
 }
 
@@ -509,19 +363,13 @@ static void limit(struct step *s, uint32_t first)
 
     if (b->clock.touched) {
         if (limit_touched(s, first, owed != NULL)) {
-            undo(s, first);
+            step_undo(s, first);
         }
         if (owed) {
             *owed = (struct fix_wide){0, 0};
         }
     } else if (owed) {
-        struct fix_wide before = *owed;
-
-        if (conserve_island(s, first, owed)) {
-            *owed = before;
-            undo(s, first);
-            settle_undone(s, first, owed);
-        }
+        s->w->joint_steps->conserve(s, first, owed);
     }
 }
 

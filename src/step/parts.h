@@ -30,7 +30,7 @@
  *   as_one    an island that goes through a frame as one rigid body
  *   noted     the list of interfering faces
  *   finish    bodies that leave the world, events, statistics
- *   connect   joints in a step; joint_add, joint_measure and joint_led go with it
+ *   connect   joints in a step; joint_add, joint_measure, joint_energy and joint_led go with it
  */
 #ifndef CAROM_SRC_STEP_PARTS_H
 #define CAROM_SRC_STEP_PARTS_H

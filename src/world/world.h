@@ -127,11 +127,12 @@ struct step_joint_calls {
     int (*break_joints)(struct step *s); /* CAROM_OK or CAROM_ERR_PAIRS_FULL */
     /*
      * energy of an island: add what springs took up, and what limits and damping took; what is
-     * owed; note islands held by stationary bodies
+     * owed; conserve it where nothing touched; note islands held by stationary bodies
      */
     void (*add_joints2)(const struct step *s, uint32_t first, struct fix_wide *gained,
                         struct fix_wide *taken, struct fix_wide *kept);
     struct fix_wide *(*owed2)(const struct step *s, uint32_t first);
+    void (*conserve)(struct step *s, uint32_t first, struct fix_wide *owed2);
     void (*ground)(struct step *s);
     /*
      * a body of the island that the kinematic body `led` leads, or that any does if `led` is
