@@ -387,8 +387,7 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
     unite_links(crowd);
 }
 
-/* A lower bound of the least moment of inertia by mass: the determinant over the largest two. */
-static double least_inertia(const double i[6])
+double crowd_least_inertia(const double i[6])
 {
     double determinant = i[0] * (i[1] * i[2] - i[4] * i[4]) - i[3] * (i[3] * i[2] - i[4] * i[5]) +
                          i[5] * (i[3] * i[4] - i[1] * i[5]);
@@ -410,9 +409,10 @@ static double noise(const struct crowd *crowd, const struct crowd_body *body)
     double r = crowd->meshes[body->mesh].radius, gravity[3], once;
 
     gravity_of(crowd, gravity);
-    once = 8 * ULP_Q40 * (v + w + m * (v + w + r * w)) +
-           64 * ULP_Q40 * ULP_Q40 * (m + 1 / m + 1 / (m * least_inertia(seen->body.inertia))) +
-           0x1p-31 * m * real_length(gravity);
+    once =
+        8 * ULP_Q40 * (v + w + m * (v + w + r * w)) +
+        64 * ULP_Q40 * ULP_Q40 * (m + 1 / m + 1 / (m * crowd_least_inertia(seen->body.inertia))) +
+        0x1p-31 * m * real_length(gravity);
     return (1 + crowd->substeps / 4) * once +
            ROTATION_ROUNDING * (crowd->substeps + 2 * w + 1) * fmax(seen->sway, body->before.sway);
 }

@@ -210,6 +210,8 @@ int crowd_overlap_now(const struct crowd *crowd, int a, int b, double near);
 /* The gap between the boxes of two bodies' meshes, each turned with its body, units; below 0 if they overlap. */
 double crowd_box_gap(const struct crowd *crowd, int a, int b);
 
+/* A lower bound of the least moment of inertia by mass: the determinant over the largest two. */
+double crowd_least_inertia(const double inertia[6]);
 /* Read the bodies without a step; for the first frame and after carom_body_set. */
 void crowd_look(struct crowd *crowd);
 

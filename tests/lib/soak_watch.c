@@ -84,6 +84,9 @@ static bool stands_still(const struct crowd *crowd, int i)
     }
     /* a body at a joint's limit keeps the speed that gravity gives in half of a frame */
     slow = real_length(gravity) / (body->linked ? 1 : 8) + 0x1p-22;
+    /* the last places of its angular momentum spin a needle about its axis */
+    slow += 2 * 0x1p-40 * crowd->meshes[body->mesh].radius /
+            (body->mass * crowd_least_inertia(body->now.body.inertia));
     speed = fmin(speed_of(crowd, body, &body->before), speed_of(crowd, body, &body->now));
     way = way_of(crowd, body, &places);
     return (speed > slow && places <= 2) ||
