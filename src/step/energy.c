@@ -241,13 +241,14 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
 {
     struct step_account sum = step_settle_left(s, first);
     struct rest_rigid rigid;
+    struct fix_wide beside;
+    int32_t factor;
 
     if (!gains(&sum)) {
         return false;
     }
     if (s->w->bodies[first].clock.grounded) {
-        int32_t factor = step_factor_q30(&sum.kinetic, &sum.excess);
-
+        factor = step_factor_q30(&sum.kinetic, &sum.excess);
         if (factor == 0 && is_pushed(s, first)) {
             rest_scale_grounded(&s->w->rest, first, 0); /* the kinematic body may be where it was */
         } else if (factor == 0) {
@@ -255,16 +256,15 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
         } else {
             rest_scale_grounded(&s->w->rest, first, factor);
         }
-    } else if (rest_is_alone(&s->w->rest, first)) {
-        return true;
-    } else if (rest_rigid_motion(&s->w->rest, first, &rigid)) {
-        struct fix_wide beside = step_beside2(s, &rigid, &sum.kinetic);
-        int32_t factor = step_factor_q30(&beside, &sum.excess);
-
-        rest_scale_free(&s->w->rest, &rigid, factor);
-        return factor == 0;
+        return false;
     }
-    return false;
+    if (rest_is_alone(&s->w->rest, first) || !rest_rigid_motion(&s->w->rest, first, &rigid)) {
+        return true;
+    }
+    beside = step_beside2(s, &rigid, &sum.kinetic);
+    factor = step_factor_q30(&beside, &sum.excess);
+    rest_scale_free(&s->w->rest, &rigid, factor);
+    return factor == 0;
 }
 
 void step_forgive_taken(struct step_account *sum)

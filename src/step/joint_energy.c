@@ -125,13 +125,12 @@ static bool is_snatched(const struct step_account *sum)
 static bool owes_much(const struct step *s, uint32_t first, const struct step_account *sum,
                       const struct fix_wide *owed2)
 {
-    struct fix_wide energy = sum->before, over = *owed2, slack, again;
+    struct fix_wide energy = sum->before, over = *owed2, slack;
 
     fix_wide_add(&energy, &sum->kept);
     slack = fix_wide_down(&energy, JOINT_SLACK_BITS);
     fix_wide_subtract(&over, &slack);
-    again = over;
-    fix_wide_add(&over, &again);
+    fix_wide_shift_up(&over, 1);
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         body_add_lift2(&over, &s->w->bodies[i], -1);
     }
@@ -164,8 +163,7 @@ static void pay(struct step *s, uint32_t first, const struct step_account *sum,
     /* the gain of this frame goes at once, whatever is left: a limit may have given it */
     least =
         fix_wide_sign(&sum->excess) > 0 ? step_factor_q30(&energy, &sum->excess) : CAROM_ONE_Q30;
-    least = least < STEP_CONSERVE_LEAST_Q30 ? least : STEP_CONSERVE_LEAST_Q30;
-    factor = fix_larger(factor, least);
+    factor = fix_larger(factor, fix_smaller(least, STEP_CONSERVE_LEAST_Q30));
     if (grounded) {
         rest_scale_grounded(&s->w->rest, first, factor);
     } else {
