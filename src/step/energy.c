@@ -198,14 +198,14 @@ static bool is_pushed(const struct step *s, uint32_t first)
 }
 
 /* Scale the momenta of the bodies that left the world in this frame. */
-static void scale_left(struct step *s, uint32_t first, int32_t factor)
+static void scale_left(struct step *s, uint32_t first, int32_t factor_q30)
 {
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         struct body_state *state = &s->next->bodies[i];
 
         for (int k = 0; state->out && !world_now(s->w)->bodies[i].out && k < 3; k++) {
-            state->momentum.c[k] = fix_mul_q30(state->momentum.c[k], factor);
-            state->angular.c[k] = fix_mul_q30(state->angular.c[k], factor);
+            state->momentum.c[k] = fix_mul_q30(state->momentum.c[k], factor_q30);
+            state->angular.c[k] = fix_mul_q30(state->angular.c[k], factor_q30);
         }
     }
 }
@@ -242,19 +242,19 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
     struct step_account sum = step_settle_left(s, first);
     struct rest_rigid rigid;
     struct fix_wide beside;
-    int32_t factor;
+    int32_t factor_q30;
 
     if (!gains(&sum)) {
         return false;
     }
     if (s->w->bodies[first].clock.grounded) {
-        factor = step_factor_q30(&sum.kinetic, &sum.excess);
-        if (factor == 0 && is_pushed(s, first)) {
+        factor_q30 = step_factor_q30(&sum.kinetic, &sum.excess);
+        if (factor_q30 == 0 && is_pushed(s, first)) {
             rest_scale_grounded(&s->w->rest, first, 0); /* the kinematic body may be where it was */
-        } else if (factor == 0) {
+        } else if (factor_q30 == 0) {
             hold_still(s, first); /* it climbed by more energy than it has to give */
         } else {
-            rest_scale_grounded(&s->w->rest, first, factor);
+            rest_scale_grounded(&s->w->rest, first, factor_q30);
         }
         return false;
     }
@@ -262,9 +262,9 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
         return true;
     }
     beside = step_beside2(s, &rigid, &sum.kinetic);
-    factor = step_factor_q30(&beside, &sum.excess);
-    rest_scale_free(&s->w->rest, &rigid, factor);
-    return factor == 0;
+    factor_q30 = step_factor_q30(&beside, &sum.excess);
+    rest_scale_free(&s->w->rest, &rigid, factor_q30);
+    return factor_q30 == 0;
 }
 
 void step_forgive_taken(struct step_account *sum)

@@ -148,7 +148,7 @@ static void pay(struct step *s, uint32_t first, const struct step_account *sum,
     struct fix_wide energy = sum->kinetic;
     struct step_account now;
     struct rest_rigid rigid;
-    int32_t factor, least;
+    int32_t factor_q30, least_q30;
 
     if (!grounded) {
         if (rest_is_alone(&s->w->rest, first) || !rest_rigid_motion(&s->w->rest, first, &rigid)) {
@@ -159,15 +159,16 @@ static void pay(struct step *s, uint32_t first, const struct step_account *sum,
     if (fix_wide_sign(&energy) <= 0 || fix_wide_sign(owed2) == 0) {
         return;
     }
-    factor = lacks_much(&energy, owed2) ? STEP_CONSERVE_MOST_Q30 : step_factor_q30(&energy, owed2);
+    factor_q30 =
+        lacks_much(&energy, owed2) ? STEP_CONSERVE_MOST_Q30 : step_factor_q30(&energy, owed2);
     /* the gain of this frame goes at once, whatever is left: a limit may have given it */
-    least =
+    least_q30 =
         fix_wide_sign(&sum->excess) > 0 ? step_factor_q30(&energy, &sum->excess) : CAROM_ONE_Q30;
-    factor = fix_larger(factor, fix_smaller(least, STEP_CONSERVE_LEAST_Q30));
+    factor_q30 = fix_larger(factor_q30, fix_smaller(least_q30, STEP_CONSERVE_LEAST_Q30));
     if (grounded) {
-        rest_scale_grounded(&s->w->rest, first, factor);
+        rest_scale_grounded(&s->w->rest, first, factor_q30);
     } else {
-        rest_scale_free(&s->w->rest, &rigid, factor);
+        rest_scale_free(&s->w->rest, &rigid, factor_q30);
     }
     now = step_audit(s, first);
     fix_wide_add(owed2, &now.kinetic);
