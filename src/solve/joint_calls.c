@@ -350,9 +350,8 @@ static void book_drive(struct joint *j)
         if (work->back_q30 > 0) {
             take_back(work);
         } else {
-            bool others = work->law.lower || work->law.motor; /* the impulse may be theirs */
-
-            work->given_q40 = others ? pull_q40 : p_q40 - work->push_q40;
+            /* a limit may have given a part of the impulse; a motor is not beside a spring */
+            work->given_q40 = work->law.lower ? pull_q40 : p_q40 - work->push_q40;
             work->given_q30 = work->pull_q30;
             work->pulled_q30 += work->pull_q30;
             /* what a limit stops has no second half: the limit would have to answer it */

@@ -408,7 +408,7 @@ static void add_turn(int64_t m[3], const int64_t l[3], const int32_t u_q30[3])
 /*
  * The Cayley vector of a turn over tau in the world's axes, by the implicit midpoint rule of
  * body/path.c: u is half of tau times the spin that M has, and M = L + M x u. It keeps the energy.
- * Zero if the spin cannot be found.
+ * A spin that cannot be found stays.
  */
 static FIX_OWN_FRAME void cayley(const struct rest *r, struct rest_rigid *rigid,
                                  const struct inertia *inertia, const struct momenta *all,
@@ -429,9 +429,7 @@ static FIX_OWN_FRAME void cayley(const struct rest *r, struct rest_rigid *rigid,
             fix_wide_add_product(&of_m[k], m[k], 1);
             fix_wide_shift_up(&of_m[k], bits);
         }
-        if (!find_spin(r, rigid, inertia, of_m)) {
-            return;
-        }
+        (void)find_spin(r, rigid, inertia, of_m);
         change = 0;
         for (int k = 0; k < 3; k++) {
             int32_t next_q30 = (int32_t)fix_mul(rigid->spin.c[k], tau_q30, 41);

@@ -197,13 +197,13 @@ static bool is_pushed(const struct step *s, uint32_t first)
     return s->w->joint_steps && s->w->joint_steps->led_by(s, first, ISLAND_END) != ISLAND_END;
 }
 
-/* Scale the momenta of the bodies that left the world in this frame. */
+/* Scale the momenta of the island's bodies that left the world. All left in this frame: one that is out joins no island. */
 static void scale_left(struct step *s, uint32_t first, int32_t factor_q30)
 {
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         struct body_state *state = &s->next->bodies[i];
 
-        for (int k = 0; state->out && !world_now(s->w)->bodies[i].out && k < 3; k++) {
+        for (int k = 0; state->out && k < 3; k++) {
             state->momentum.c[k] = fix_mul_q30(state->momentum.c[k], factor_q30);
             state->angular.c[k] = fix_mul_q30(state->angular.c[k], factor_q30);
         }
