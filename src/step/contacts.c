@@ -342,7 +342,7 @@ static void find_chords(struct step *s)
         if (pair_number != c->key.pair) {
             pair_number = c->key.pair;
             slice_q30 = straight_paths(s, &w->pairs[pair_number]);
-            pair = slice_q30 > STEP_LASTING_MIN_Q30 ? step_set_pair(w, pair_number) : NULL;
+            pair = step_set_pair(w, pair_number);
         }
         if (slice_q30 <= (c->lasting ? STEP_LASTING_MIN_Q30 : STEP_CHORD_MIN_Q30)) {
             continue;
