@@ -270,6 +270,35 @@ static void again_and_again(void)
     }
 }
 
+/*
+ * A cube goes along with a kinematic plate. Another cube hits it from beside, which is its last hit of the frame, so it stands. A
+ * plate that comes up stops with it; one that slides away below it goes on.
+ */
+static void stands_on(void)
+{
+    for (int up = 0; up < 2; up++) {
+        struct carom_body_def def = boxes_def(FLAT, 0, 0, 0);
+
+        begin();
+        boxes_config.substep_cap = 1;
+        world = boxes_world(0);
+        def.kinematic = true;
+        def.velocity.c[up ? 2 : 1] = BOXES_Q40(64);
+        CHECK_EQ(boxes_add(world, &def), GROUND);
+        def = boxes_def(CUBE, 0, 0, 200);
+        def.velocity.c[up ? 2 : 1] = BOXES_Q40(64);
+        CHECK_EQ(boxes_add(world, &def), A);
+        def.position.c[0] = BOXES_Q32(400);
+        def.velocity.c[0] = BOXES_Q40(-400);
+        CHECK_EQ(boxes_add(world, &def), B);
+        CHECK_EQ(carom_world_step(world), CAROM_SUBSTEP_CAP);
+        CHECK_EQ(boxes_events(world, CAROM_EVENT_HIT, B, A), 1);
+        CHECK_EQ(boxes_events(world, CAROM_EVENT_BLOCKED, GROUND, A), up);
+        CHECK_NEAR(boxes_state(world, GROUND).position.c[up ? 2 : 1], BOXES_Q32(up ? 32 : 64),
+                   BOXES_Q32(1));
+    }
+}
+
 /* The list of events holds so many, and forgets others. */
 static void events(void)
 {
@@ -556,6 +585,7 @@ const struct test tests_step[] = {
     {"step/carried", carried},
     {"step/asleep", asleep},
     {"step/again_and_again", again_and_again},
+    {"step/stands_on", stands_on},
     {"step/events", events},
     {"step/leaves", leaves},
     {"step/leaves_from", leaves_from},
