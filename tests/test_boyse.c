@@ -492,7 +492,37 @@ static void test_ridges_that_slide(void)
     }
 }
 
+/*
+ * The middle of a field is higher or lower than the rest, by so little that every direction near the vertical is in its cones. A box lies
+ * on it. It touches a middle that is higher, and none that is lower: only a box under the field touches that one.
+ */
+static void test_flat_valley(void)
+{
+    enum { MIDDLE = 4, FACES = 12 };
+
+    for (int n = 0; n < 3; n++) {
+        const bool low = n > 0, under = n > 1;
+        bool touches = false;
+
+        above(0.1, 0.05, under ? -600. / 4096 : 600. / 4096, false);
+        duo.shape[1].vertices[MIDDLE][2] = low ? -1 : 1;
+        CHECK_EQ(carom_mesh_build(&duo.shape[1].mesh, &duo.shape[1].raw, duo.shape[1].block,
+                                  sizeof duo.shape[1].block),
+                 CAROM_OK);
+        duo_set_paths(still, still, NULL);
+        for (uint32_t face = 0; face < FACES; face++) {
+            const struct candidate c = {0, CANDIDATE_FACE_VERTEX, MIDDLE, face};
+            struct boyse_touch touch;
+
+            boyse_touch(&duo.pair, &c, 0, &touch);
+            touches |= touch.valid && carom_abs(touch.gap_q22) <= 1 << 13;
+        }
+        CHECK_EQ(touches, low == under);
+    }
+}
+
 const struct test tests_boyse[] = {
+    {"boyse/flat_valley", test_flat_valley},
     {"boyse/deep_ridges", test_deep_ridges},
     {"boyse/ridges_that_slide", test_ridges_that_slide},
     {"boyse/translating_vertex", test_translating_vertex},

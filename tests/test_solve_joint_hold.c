@@ -95,6 +95,36 @@ static void test_light_between(void)
 }
 
 /*
+ * A grain, a 10,000th of a slab wide, is fixed to the slab, which turns. In the slab's units a turn of the grain is more than the rows
+ * hold, so they are scaled down more than once. The grain goes round with the slab.
+ */
+static void test_grain(void)
+{
+    static struct shape slab;
+    struct carom_joint_def j;
+
+    setup(0);
+    shape_box(&slab, 8, 4096, 2048, 1024);
+    shape_box(&small, 13, 10, 10, 10);
+    def.mesh = &slab.mesh;
+    def.spin.c[2] = ONE / 64;
+    CHECK_EQ(add(0, 0, 0), 0);
+    def.mesh = &small.mesh;
+    def.velocity.c[1] = ONE / 8; /* w r */
+    CHECK_EQ(add(8 * UNIT + UNIT / 1024, 0, 0), 1);
+    j = joint(CAROM_JOINT_FIXED, 0, 1, 8 * UNIT, 0, 0);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    for (int frame = 0; frame < 100; frame++) {
+        steps(1);
+        CHECK_LESS(apart(0), 16 * SKIN);
+    }
+    for (int k = 0; k < 4; k++) {
+        CHECK_NEAR(state_of(0).rotation.c[k], state_of(1).rotation.c[k], 1 << 20);
+    }
+    CHECK_NEAR(state_of(0).spin.c[2], ONE / 64, ONE >> 16);
+}
+
+/*
  * A hinge and a fixed joint hold the same two bodies, so rows repeat each other: their solution is
  * not unique. The bodies fly as one. No joint pushes more than the motion asks for, which is some part of the
  * momentum; impulses that cancel each other would grow, and rounding would turn the bodies.
@@ -159,6 +189,7 @@ const struct test tests_solve_joint_hold[] = {
     {"solve_joint_hold/rope", test_rope},
     {"solve_joint_hold/break_owes_nothing", test_break_owes_nothing},
     {"solve_joint_hold/light_between", test_light_between},
+    {"solve_joint_hold/grain", test_grain},
     {"solve_joint_hold/twice", test_twice},
     {"solve_joint_hold/units", test_units},
     {0},

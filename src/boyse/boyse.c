@@ -222,7 +222,7 @@ static FIX_OWN_FRAME bool first_by_roots(struct boyse_pair *pair, const struct c
             return true;
         }
         a[0] += shift_q40;
-        if (touching != 0 && c->kind != CANDIDATE_EDGE_EDGE && (touching < 0 ? -a[0] : a[0]) < 0) {
+        if (touching != 0 && c->kind != CANDIDATE_EDGE_EDGE && touching * a[0] < 0) {
             /* touches from behind, beside the face: it may come out and go in again */
             shift_q40 = touching * level_q40(pair, c);
             touching = 0;
