@@ -5,7 +5,6 @@
  */
 #include "joint_parts.h"
 
-#define TURN_BITS_MAX 14
 /* A pivot below this part of the largest one: the row repeats others. */
 #define PIVOT_MIN_Q30 (1 << 8)
 
@@ -48,7 +47,7 @@ static bool prepare_turns(const struct joint_work *work, struct joint_lever *lev
             int64_t turn = turn_of(work, lever, row, j);
 
             if (turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30) {
-                if (lever->body->solve.turn_bits < TURN_BITS_MAX) {
+                if (lever->body->solve.turn_bits < REST_TURN_BITS_MAX) {
                     lever->body->solve.turn_bits++;
                     return false;
                 }

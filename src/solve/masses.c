@@ -3,9 +3,6 @@
 #include "rows.h"
 #include "parts.h"
 
-/* Bounds K: a place that would turn farther counts as turning so far. */
-#define TURN_BITS_MAX 14
-
 void rest_prepare_body(struct body *b)
 {
     const carom_m3_q30 *r = &b->path.start.r;
@@ -47,7 +44,7 @@ static bool prepare_turn(const struct contact_side *side, struct contact_lever *
             turn[k] = down > 0 ? carom_round(turn[k], down) : carom_shl(turn[k], -down);
         }
         if (too_long(turn[0]) || too_long(turn[1]) || too_long(turn[2])) {
-            if (b->solve.turn_bits < TURN_BITS_MAX) {
+            if (b->solve.turn_bits < REST_TURN_BITS_MAX) {
                 b->solve.turn_bits++;
                 return false;
             }

@@ -18,6 +18,9 @@
 /* If dv or du use more bits than this the unit is too small and is enlarged. */
 #define REST_USED_BITS 29
 
+/* Most turn_bits of a body, which bounds K: a place that would turn farther counts as turning so far. */
+#define REST_TURN_BITS_MAX 14
+
 struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
     bool plastic; /* impacts end at V.N = 0: the plastic solution of the energy rule */
