@@ -237,6 +237,25 @@ static void test_line(void)
     CHECK_DIFFER(memcmp(before, &hand.states[1], sizeof before), 0);
 }
 
+/* An island whose bodies all sleep, or are out of the world, has no motion. */
+static void test_nobody(void)
+{
+    struct rest_rigid rigid;
+
+    hand_make_cube();
+    hand_begin(2, 0);
+    join(2);
+    CHECK(rest_rigid_motion(&hand.rest, 1, &rigid));
+    CHECK(!rest_is_alone(&hand.rest, 1));
+    hand.states[1].asleep = 1;
+    CHECK(rest_is_alone(&hand.rest, 1));
+    CHECK(rest_rigid_motion(&hand.rest, 1, &rigid));
+    CHECK_EQ(rigid.first, 2);
+    hand.states[2].out = 1;
+    CHECK(rest_is_alone(&hand.rest, 1));
+    CHECK(!rest_rigid_motion(&hand.rest, 1, &rigid));
+}
+
 /* ----------------------------------------------------------------- a whole frame */
 
 /* The place and the axes of a body as body 1 sees them. */
@@ -451,11 +470,8 @@ static void test_turn(void)
 }
 
 const struct test tests_solve_rest_unite[] = {
-    {"solve_rest_unite/pair", test_pair},
-    {"solve_rest_unite/grounded", test_grounded},
-    {"solve_rest_unite/random", test_random},
-    {"solve_rest_unite/line", test_line},
-    {"solve_rest_unite/frame", test_frame},
-    {"solve_rest_unite/turn", test_turn},
-    {0},
+    {"solve_rest_unite/pair", test_pair},     {"solve_rest_unite/grounded", test_grounded},
+    {"solve_rest_unite/random", test_random}, {"solve_rest_unite/line", test_line},
+    {"solve_rest_unite/nobody", test_nobody}, {"solve_rest_unite/frame", test_frame},
+    {"solve_rest_unite/turn", test_turn},     {0},
 };
