@@ -92,6 +92,8 @@ static void goes_as_one(void)
         } else if (way == PULLED) {
             world->bodies[B].def.acceleration.c[1] = ONE / 100;
         }
+        /* in a frame before */
+        world->bodies[A].clock.grounded = world->bodies[B].clock.rewound = true;
         step_limit_energy(&step);
         CHECK_EQ(world->stats.calmed, 1);
         for (int i = A; i <= B; i++) {
