@@ -470,8 +470,13 @@ static void test_turn(void)
 }
 
 const struct test tests_solve_rest_unite[] = {
-    {"solve_rest_unite/pair", test_pair},     {"solve_rest_unite/grounded", test_grounded},
-    {"solve_rest_unite/random", test_random}, {"solve_rest_unite/line", test_line},
-    {"solve_rest_unite/nobody", test_nobody}, {"solve_rest_unite/frame", test_frame},
-    {"solve_rest_unite/turn", test_turn},     {0},
+    {"solve_rest_unite/pair", test_pair},
+    {"solve_rest_unite/grounded", test_grounded},
+    {"solve_rest_unite/random", test_random},
+    {"solve_rest_unite/line", test_line},
+    {"solve_rest_unite/nobody", test_nobody},
+    {"solve_rest_unite/frame", test_frame},
+    {"solve_rest_unite/turn", test_turn},
+
+    {0},
 };
