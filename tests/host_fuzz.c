@@ -105,7 +105,7 @@ static void load_changed(uint64_t seed, int call)
 
 static uint64_t run(uint64_t seed)
 {
-    fuzz_begin(&fuzz, seed);
+    fuzz_begin(&fuzz, seed, 6);
     for (int call = 0; call < CALLS; call++) {
         call_once(seed, call);
         if (fuzz_pick(&fuzz, 4) == 0) {

@@ -17,6 +17,7 @@
 
 #define WORLDS 40
 #define CALLS  80
+#define BODIES 6 /* at the beginning */
 
 static struct fuzz fuzz;
 static struct recording original;
@@ -45,10 +46,10 @@ static void test_worlds(uint64_t count)
     long wrong = 0, begun = 0, longest = 0;
 
     for (uint64_t seed = 1; seed <= count; seed++) {
-        const uint64_t alone = recording_make(&original, &fuzz, seed, CALLS + 1, CALLS);
+        const uint64_t alone = recording_make(&original, &fuzz, seed, BODIES, CALLS + 1, CALLS);
 
         for (int from = 0; from <= CALLS; from += CALLS / 4) {
-            const uint64_t hash = recording_make(&original, &fuzz, seed, from, CALLS);
+            const uint64_t hash = recording_make(&original, &fuzz, seed, BODIES, from, CALLS);
             const int result = original.bytes > sizeof original.file
                                    ? CAROM_REPLAY_CUT
                                    : recording_play(&player, original.file, original.bytes);
@@ -101,7 +102,7 @@ int main(int argc, char **argv)
 
     test_worlds(all ? 400 : WORLDS);
     for (int k = 0; k < 4; k++) { /* two from the beginning, two from the middle */
-        (void)recording_make(&original, &fuzz, (uint64_t)k + 1, k / 2 * 20, all ? 24 : 30);
+        (void)recording_make(&original, &fuzz, (uint64_t)k + 1, BODIES, k / 2 * 20, all ? 24 : 30);
         if (!all || k == 1 || k == 2) {
             test_bytes(all ? 1 : 41);
         }

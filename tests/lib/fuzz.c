@@ -109,6 +109,14 @@ void fuzz_body_def(struct fuzz *f, struct carom_body_def *def)
     def->overlap = kind(f, 3);
 }
 
+void fuzz_put_def(struct fuzz *f, struct carom_body_def *def)
+{
+    fuzz_body_def(f, def);
+    if (def->overlap == CAROM_OVERLAP_PUSH_OUT) {
+        def->overlap = CAROM_OVERLAP_PASS;
+    }
+}
+
 void fuzz_drive(struct fuzz *f, struct carom_joint_drive *d)
 {
     memset(d, 0, sizeof *d);
@@ -210,7 +218,9 @@ static void make_materials(struct fuzz *f)
     }
 }
 
-static void begin(struct fuzz *f, int bodies)
+/* A world with the surface, and bodies by `define`. */
+static void begin(struct fuzz *f, int bodies,
+                  void (*define)(struct fuzz *f, struct carom_body_def *def))
 {
     struct carom_config config = {
         CAROM_CAPS(FUZZ_CAPS), {{0, 0, -((int64_t)1 << 31)}}, .sleep = true};
@@ -234,27 +244,21 @@ static void begin(struct fuzz *f, int bodies)
     def.position.c[2] = -3 * ((int64_t)1 << 32);
     lab_expect(carom_body_add(f->world, &def), "surface");
     for (int i = 0; i < bodies; i++) {
-        fuzz_body_def(f, &def);
+        define(f, &def);
         (void)carom_body_add(f->world, &def);
     }
 }
 
-void fuzz_begin(struct fuzz *f, uint64_t seed)
+void fuzz_begin(struct fuzz *f, uint64_t seed, int bodies)
 {
     f->chance = (struct chance){.r.state = seed * 0x9e3779b97f4a7c15u};
-    begin(f, 6);
-}
-
-void fuzz_begin_empty(struct fuzz *f, uint64_t seed)
-{
-    f->chance = (struct chance){.r.state = seed * 0x9e3779b97f4a7c15u};
-    begin(f, 0);
+    begin(f, bodies, fuzz_body_def);
 }
 
 void fuzz_begin_bytes(struct fuzz *f, const uint8_t *bytes, size_t count)
 {
     f->chance = (struct chance){.bytes = bytes, .left = count};
-    begin(f, fuzz_pick(f, 4));
+    begin(f, fuzz_pick(f, 4), fuzz_put_def);
 }
 
 const char *fuzz_try(struct fuzz *f, int (*call)(struct fuzz *f), int *result)

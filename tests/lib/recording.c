@@ -26,7 +26,8 @@ static void write_file(void *user, const void *bytes, size_t count)
     r->bytes += count;
 }
 
-uint64_t recording_make(struct recording *r, struct fuzz *f, uint64_t seed, int from, int calls)
+uint64_t recording_make(struct recording *r, struct fuzz *f, uint64_t seed, int bodies, int from,
+                        int calls)
 {
     uint64_t hash;
 
@@ -35,7 +36,7 @@ uint64_t recording_make(struct recording *r, struct fuzz *f, uint64_t seed, int 
     if (from == 0) {
         carom_record_begin(&recorder, write_file, r, seed % 2 != 0, "fuzz");
     }
-    fuzz_begin(f, seed);
+    fuzz_begin(f, seed, bodies);
     for (int call = 1; call <= calls; call++) {
         if (call == from) {
             carom_record_begin(&recorder, write_file, r, seed % 2 != 0, "fuzz");

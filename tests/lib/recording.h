@@ -17,10 +17,11 @@ struct recording {
 };
 
 /*
- * A world of random calls, recorded from that call on: 0 is from its beginning, beyond all is not at all. Returns its last
+ * A world of some bodies and random calls, recorded from that call on: 0 is from its beginning, beyond all is not at all. Returns its last
  * state.
  */
-uint64_t recording_make(struct recording *r, struct fuzz *f, uint64_t seed, int from, int calls);
+uint64_t recording_make(struct recording *r, struct fuzz *f, uint64_t seed, int bodies, int from,
+                        int calls);
 
 /* Play a file to its end; the result of the last frame. */
 int recording_play(struct carom_replay *player, const uint8_t *bytes, size_t count);

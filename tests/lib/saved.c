@@ -49,9 +49,9 @@ static void make_joints(struct saved *s)
     lab_expect(carom_joint_add(s->world, &joint), "hinge");
 }
 
-static void make_random(struct saved *s)
+static void make_random(struct saved *s, int calls)
 {
-    for (int call = 0; call < 40; call++) {
+    for (int call = 0; call < calls; call++) {
         (void)fuzz_call(&s->fuzz);
         if (fuzz_pick(&s->fuzz, 4) == 0) {
             (void)carom_world_step(s->world);
@@ -59,24 +59,46 @@ static void make_random(struct saved *s)
     }
 }
 
-void saved_make(struct saved *s, int number)
+static void begin(struct saved *s, uint64_t seed, int bodies)
+{
+    fuzz_begin(&s->fuzz, seed, bodies);
+    s->world = s->fuzz.world;
+}
+
+/* Go on for some frames, and save. */
+static void save(struct saved *s, int frames)
 {
     int result = 0;
 
-    if (number < 2) {
-        fuzz_begin_empty(&s->fuzz, (uint64_t)number + 1);
-    } else {
-        fuzz_begin(&s->fuzz, (uint64_t)number);
-    }
-    s->world = s->fuzz.world;
-    (number == 0 ? make_pile : number == 1 ? make_joints : make_random)(s);
-    /* at least two, so that the surface has been still for one */
-    for (int frame = 0; frame < (number < 2 ? 40 : 2); frame++) {
+    for (int frame = 0; frame < frames; frame++) {
         result = carom_world_step(s->world);
     }
     lab_expect(result, "step");
     s->size = (size_t)lab_expect(carom_snapshot_save(s->world, s->good, sizeof s->good), "save");
     s->hash = carom_world_hash(s->world);
+}
+
+/* At least two, so that the surface has been still for one. */
+#define FRAMES 2
+
+void saved_make(struct saved *s, int number)
+{
+    if (number < 2) {
+        begin(s, (uint64_t)number + 1, 0);
+        (number == 0 ? make_pile : make_joints)(s);
+        save(s, 40);
+    } else {
+        begin(s, (uint64_t)number, 6);
+        make_random(s, 40);
+        save(s, FRAMES);
+    }
+}
+
+void saved_make_small(struct saved *s, int number)
+{
+    begin(s, (uint64_t)number + 1, 2);
+    make_random(s, 8);
+    save(s, FRAMES);
 }
 
 const char *saved_try_load(struct saved *s, const uint8_t *bytes, size_t size, int *result)

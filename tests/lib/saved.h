@@ -19,6 +19,8 @@ struct saved {
 
 /* Make a world and its snapshot, the same every time. */
 void saved_make(struct saved *s, int number);
+/* One of few bodies, of any number: its steps are cheap. */
+void saved_make_small(struct saved *s, int number);
 /* Load bytes, and the fault in that: NULL if they are taken, or refused with nothing changed. */
 const char *saved_try_load(struct saved *s, const uint8_t *bytes, size_t size, int *result);
 /* Go back to the snapshot: the fault in that. */

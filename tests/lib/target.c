@@ -12,13 +12,10 @@
 #include "saved.h"
 
 const struct target targets[] = {
-    {"calls", target_calls},
-    {"ask", target_ask},
-    {"draw", target_draw},
-    {"snapshot", target_snapshot},
-    {"replay", target_replay},
-    {"mesh", target_mesh},
-    {0},
+    {"calls", target_calls}, {"ask", target_ask},
+    {"draw", target_draw},   {"snapshot", target_snapshot},
+    {"small", target_small}, {"replay", target_replay},
+    {"mesh", target_mesh},   {0},
 };
 
 const struct target *target_find(const char *name)
@@ -100,22 +97,29 @@ void target_draw(const uint8_t *bytes, size_t count)
 
 /* ------------------------------------------------------------------ bytes of files */
 
-/* What loads is a world: it steps, saves, and takes back what it saved. */
-void target_snapshot(const uint8_t *bytes, size_t count)
+/* A saved world, which is made when it is first asked for. */
+static struct saved *saved_world(struct saved **all, struct chance *c,
+                                 void (*make)(struct saved *s, int number))
 {
-    static struct saved *all[SAVED_WORLDS];
-    static uint8_t changed[SAVED_BYTES];
-    struct chance c = {.bytes = bytes, .left = count};
-    const int number = chance_pick(&c, SAVED_WORLDS);
-    const int steps = chance_pick(&c, 3);
-    struct saved *s;
-    int result;
+    const int number = chance_pick(c, SAVED_WORLDS);
 
     if (!all[number]) {
         all[number] = (struct saved *)lab_need(sizeof **all);
-        saved_make(all[number], number);
+        make(all[number], number);
     }
-    s = all[number];
+    return all[number];
+}
+
+/* What loads is a world: it steps, saves, and takes back what it saved. */
+static void load(struct saved **all, void (*make)(struct saved *s, int number),
+                 const uint8_t *bytes, size_t count)
+{
+    static uint8_t changed[SAVED_BYTES];
+    struct chance c = {.bytes = bytes, .left = count};
+    struct saved *s = saved_world(all, &c, make);
+    const int steps = chance_pick(&c, 3);
+    int result;
+
     memcpy(changed, s->good, s->size);
     edit_bytes(&c, changed, s->size - 8);
     bytes_mend(changed, s->size);
@@ -133,10 +137,24 @@ void target_snapshot(const uint8_t *bytes, size_t count)
     target_expect(saved_back(s), CAROM_OK);
 }
 
+void target_snapshot(const uint8_t *bytes, size_t count)
+{
+    static struct saved *all[SAVED_WORLDS];
+
+    load(all, saved_make, bytes, count);
+}
+
+void target_small(const uint8_t *bytes, size_t count)
+{
+    static struct saved *all[SAVED_WORLDS];
+
+    load(all, saved_make_small, bytes, count);
+}
+
 /* A recording that was changed, or the bytes as a recording. */
 void target_replay(const uint8_t *bytes, size_t count)
 {
-    enum { FILES = 4 };
+    enum { FILES = 8, CALLS = 16 };
     static struct recording *all[FILES];
     static struct carom_replay player;
     static uint8_t changed[RECORDING_BYTES];
@@ -150,7 +168,8 @@ void target_replay(const uint8_t *bytes, size_t count)
     } else {
         if (!all[number]) {
             all[number] = (struct recording *)lab_need(sizeof **all);
-            (void)recording_make(all[number], &fuzz, (uint64_t)number + 1, number / 2 * 6, 12);
+            (void)recording_make(all[number], &fuzz, (uint64_t)number + 1, 3,
+                                 number % 2 * CALLS / 2, CALLS);
         }
         size = all[number]->bytes;
         memcpy(changed, all[number]->file, size);

@@ -22,6 +22,7 @@ void target_calls(const uint8_t *bytes, size_t count);
 void target_ask(const uint8_t *bytes, size_t count);
 void target_draw(const uint8_t *bytes, size_t count);
 void target_snapshot(const uint8_t *bytes, size_t count);
+void target_small(const uint8_t *bytes, size_t count);
 void target_replay(const uint8_t *bytes, size_t count);
 void target_mesh(const uint8_t *bytes, size_t count);
 
