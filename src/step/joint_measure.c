@@ -228,7 +228,9 @@ static void measure_drive(const struct step *s, struct joint *j, const struct jo
         work->least_q40 += carom_abs(d->motor_speed_q40);
     }
     measure_spring(s, j, state, slice_q30, solve);
-    work->off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
+    if (d->spring) { /* without one rest_q32 may be anything */
+        work->off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
+    }
     work->rate_q40 = per_frame(change_q40, time_q30);
 }
 
