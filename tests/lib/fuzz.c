@@ -2,6 +2,7 @@
 /* Calls of a small world, half of them with hostile arguments. */
 #include "fuzz.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,12 +108,7 @@ void fuzz_body_def(struct fuzz *f, struct carom_body_def *def)
     def->sensor = fuzz_pick(f, 6) == 0;
     def->one_way = fuzz_pick(f, 5) == 0 ? kind(f, 7) : 0;
     def->overlap = kind(f, 3);
-}
-
-void fuzz_put_def(struct fuzz *f, struct carom_body_def *def)
-{
-    fuzz_body_def(f, def);
-    if (def->overlap == CAROM_OVERLAP_PUSH_OUT) {
+    if (def->overlap == CAROM_OVERLAP_PUSH_OUT && f->searches-- <= 0) {
         def->overlap = CAROM_OVERLAP_PASS;
     }
 }
@@ -218,9 +214,7 @@ static void make_materials(struct fuzz *f)
     }
 }
 
-/* A world with the surface, and bodies by `define`. */
-static void begin(struct fuzz *f, int bodies,
-                  void (*define)(struct fuzz *f, struct carom_body_def *def))
+static void begin(struct fuzz *f, int bodies)
 {
     struct carom_config config = {
         CAROM_CAPS(FUZZ_CAPS), {{0, 0, -((int64_t)1 << 31)}}, .sleep = true};
@@ -244,7 +238,7 @@ static void begin(struct fuzz *f, int bodies,
     def.position.c[2] = -3 * ((int64_t)1 << 32);
     lab_expect(carom_body_add(f->world, &def), "surface");
     for (int i = 0; i < bodies; i++) {
-        define(f, &def);
+        fuzz_body_def(f, &def);
         (void)carom_body_add(f->world, &def);
     }
 }
@@ -252,13 +246,15 @@ static void begin(struct fuzz *f, int bodies,
 void fuzz_begin(struct fuzz *f, uint64_t seed, int bodies)
 {
     f->chance = (struct chance){.r.state = seed * 0x9e3779b97f4a7c15u};
-    begin(f, bodies, fuzz_body_def);
+    f->searches = INT_MAX;
+    begin(f, bodies);
 }
 
 void fuzz_begin_bytes(struct fuzz *f, const uint8_t *bytes, size_t count)
 {
     f->chance = (struct chance){.bytes = bytes, .left = count};
-    begin(f, fuzz_pick(f, 4), fuzz_put_def);
+    f->searches = 0;
+    begin(f, fuzz_pick(f, 4));
 }
 
 const char *fuzz_try(struct fuzz *f, int (*call)(struct fuzz *f), int *result)

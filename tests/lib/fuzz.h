@@ -28,6 +28,7 @@
 
 struct fuzz {
     struct chance chance;
+    int searches; /* bodies that may still be pushed out: a search takes as long as many steps */
     struct carom_world *world;
     struct carom_mesh meshes[FUZZ_MESHES]; /* the last one is a surface that moves */
     struct carom_material materials[4];
@@ -43,7 +44,7 @@ struct fuzz {
 
 /* Begin a world by random numbers, with the surface and as many bodies in it. */
 void fuzz_begin(struct fuzz *f, uint64_t seed, int bodies);
-/* The same by bytes, with few bodies, which are not pushed out. */
+/* The same by bytes, with few bodies; none is pushed out. */
 void fuzz_begin_bytes(struct fuzz *f, const uint8_t *bytes, size_t count);
 void fuzz_end(struct fuzz *f);
 /* Make a call; returns its result. */
@@ -60,8 +61,6 @@ int64_t fuzz_number(struct fuzz *f, int bits);
 int fuzz_body(struct fuzz *f);
 /* Definitions, valid more often than not. */
 void fuzz_body_def(struct fuzz *f, struct carom_body_def *def);
-/* One of a body that is not pushed out: the search for a way out takes 27 times as long as a question of overlap. */
-void fuzz_put_def(struct fuzz *f, struct carom_body_def *def);
 void fuzz_joint_def(struct fuzz *f, struct carom_joint_def *def);
 void fuzz_drive(struct fuzz *f, struct carom_joint_drive *drive);
 void fuzz_vector(struct fuzz *f, int64_t v[3], int bits);

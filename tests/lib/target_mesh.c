@@ -96,7 +96,7 @@ static void use(const struct carom_mesh *mesh)
     const char *fault;
     int result;
 
-    fuzz_put_def(&fuzz, &def);
+    fuzz_body_def(&fuzz, &def);
     def.mesh = mesh;
     def.stationary |= mesh->raw.kind == CAROM_SURFACE;
     (void)carom_body_add(fuzz.world, &def);
