@@ -44,7 +44,7 @@ struct fuzz {
 
 /* Begin a world by random numbers, with the surface and as many bodies in it. */
 void fuzz_begin(struct fuzz *f, uint64_t seed, int bodies);
-/* The same by bytes, with few bodies; none is pushed out. */
+/* The same by bytes, with few bodies; none is pushed out, unless a target then sets `searches`. */
 void fuzz_begin_bytes(struct fuzz *f, const uint8_t *bytes, size_t count);
 void fuzz_end(struct fuzz *f);
 /* Make a call; returns its result. */

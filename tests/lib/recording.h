@@ -17,8 +17,8 @@ struct recording {
 };
 
 /*
- * A world of some bodies and random calls, recorded from that call on: 0 is from its beginning, beyond all is not at all. Returns its last
- * state.
+ * A world of some bodies and random calls, recorded from call `from` on: 0 is from its beginning, beyond all is not at all.
+ * Returns the hash of its last state.
  */
 uint64_t recording_make(struct recording *r, struct fuzz *f, uint64_t seed, int bodies, int from,
                         int calls);

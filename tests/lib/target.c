@@ -12,10 +12,15 @@
 #include "saved.h"
 
 const struct target targets[] = {
-    {"calls", target_calls}, {"ask", target_ask},
-    {"draw", target_draw},   {"snapshot", target_snapshot},
-    {"small", target_small}, {"replay", target_replay},
-    {"mesh", target_mesh},   {0},
+    {"calls", target_calls},
+    {"ask", target_ask},
+    {"draw", target_draw},
+    {"snapshot", target_snapshot},
+    {"small", target_small},
+    {"replay", target_replay},
+    {"mesh", target_mesh},
+
+    {0},
 };
 
 const struct target *target_find(const char *name)
