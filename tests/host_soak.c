@@ -45,7 +45,8 @@ struct name {
  * springs on long levers, or hung in the air for energy that they never had; m604 and m800 by bodies that left their joints and the world.
  * m125, m590, m791, m828, m865 and w86 had joints that contradict each other and gained what no motion of theirs could
  * give back; m123 stood still where that was undone. m1426 has weak springs, m1429 a hit that a callback drops, and m1871 a spring that
- * presses a body into a wall.
+ * presses a body into a wall. In m2242 a motor held a body against a spring, in m2080 joints' limits took what their solves had given
+ * in a touched group: bodies stood still.
  */
 static const struct name known_machines[] = {
     {50, MACHINE, 0},   {102, MACHINE, 0},   {121, MACHINE, 0},    {150, MACHINE, 0},
@@ -53,8 +54,8 @@ static const struct name known_machines[] = {
     {67, MACHINE, 0},   {289, MACHINE, 0},   {604, MACHINE, 0},    {691, MACHINE, 0},
     {800, MACHINE, 20}, {125, MACHINE, 60},  {791, MACHINE, 80},   {828, MACHINE, 120},
     {865, MACHINE, 80}, {1426, MACHINE, 60}, {1429, MACHINE, 140}, {1871, MACHINE, 60},
-    {123, MACHINE, 90}, {14, WILD, 0},       {68, WILD, 60},       {86, WILD, 60},
-    {123, WILD, 0}};
+    {123, MACHINE, 90}, {2080, MACHINE, 50}, {2242, MACHINE, 50},  {14, WILD, 0},
+    {68, WILD, 60},     {86, WILD, 60},      {123, WILD, 0}};
 /* Largest share of frames that may be cut short. */
 #define CUT_ALLOWED 0.01
 

@@ -233,6 +233,21 @@ struct step_account step_settle_left(struct step *s, uint32_t first)
 }
 
 /*
+ * The factor that takes the excess out of a motion's momenta. Where the motion has too little, what
+ * limits and damping took again does not count.
+ */
+static int32_t factor_of(const struct fix_wide *motion, struct step_account *sum)
+{
+    int32_t factor_q30 = step_factor_q30(motion, &sum->excess);
+
+    if (factor_q30 == 0) {
+        step_forgive_taken(sum);
+        factor_q30 = gains(sum) ? step_factor_q30(motion, &sum->excess) : CAROM_ONE_Q30;
+    }
+    return factor_q30;
+}
+
+/*
  * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone has
  * more energy than it may have. One body may gain some that left its path for a hit which was no
  * contact: between the ends of a slice a turning path does not keep the energy.
@@ -248,7 +263,7 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
         return false;
     }
     if (s->w->bodies[first].clock.grounded) {
-        factor_q30 = step_factor_q30(&sum.kinetic, &sum.excess);
+        factor_q30 = factor_of(&sum.kinetic, &sum);
         if (factor_q30 == 0 && is_pushed(s, first)) {
             rest_scale_grounded(&s->w->rest, first, 0); /* the kinematic body may be where it was */
         } else if (factor_q30 == 0) {
@@ -262,7 +277,7 @@ static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
         return true;
     }
     beside = step_beside2(s, &rigid, &sum.kinetic);
-    factor_q30 = step_factor_q30(&beside, &sum.excess);
+    factor_q30 = factor_of(&beside, &sum);
     rest_scale_free(&s->w->rest, &rigid, factor_q30);
     return factor_q30 == 0;
 }
@@ -321,9 +336,7 @@ static FIX_OWN_FRAME void slow_down(struct step *s, uint32_t first)
     struct rest_rigid common;
     int32_t turn_q30 = 0, all_q30;
 
-    if (!s->w->bodies[first].clock.touched) {
-        step_forgive_taken(&sum);
-    }
+    step_forgive_taken(&sum);
     if (!gains(&sum)) {
         return;
     }

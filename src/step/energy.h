@@ -24,9 +24,9 @@ struct step_account step_audit(const struct step *s, uint32_t first);
 /* Sum up an island after the bodies that left it gave what it gained, as far as they have it. */
 struct step_account step_settle_left(struct step *s, uint32_t first);
 /*
- * A gain of an island that nothing touched does not count as far as limits and damping took it
- * again: within the frame they also take what solves gave, and the island would owe energy that it
- * never had.
+ * Let a gain not count as far as limits and damping took it again: within the frame they also take
+ * what solves gave. An island that nothing touched would owe energy that it never had; one in contact
+ * would be put back in frame after frame, though it has no more energy than before.
  */
 void step_forgive_taken(struct step_account *sum);
 /* Twice the kinetic energy of an island beyond that of its motion as one rigid body. */

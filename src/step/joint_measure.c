@@ -196,7 +196,7 @@ static void measure_spring(const struct step *s, struct joint *j, const struct j
  * Measure limits, motor and spring of a coordinate that changes by change_q40 in the slice. A motor
  * acts once a frame, a spring in each slice: the pull of a stiff one changes on the way. At the end
  * of the frame a limit that is closer than close_q40, in the coordinate's unit, stops what moves on
- * to it.
+ * to it, and a motor holds what it has pressed into that limit against the second half of a spring.
  */
 static void measure_drive(const struct step *s, struct joint *j, const struct joint_state *state,
                           int64_t now_q40, int64_t change_q40, int32_t slice_q30, int64_t close_q40,
@@ -213,6 +213,8 @@ static void measure_drive(const struct step *s, struct joint *j, const struct jo
     if (d->limited && work->stops) {
         work->law.lower = now_q40 - close_q40 < carom_shl(d->lower_q32, 8);
         work->law.upper = now_q40 + close_q40 > carom_shl(d->upper_q32, 8);
+        work->law.motor = d->motor && ((work->law.upper && d->motor_speed_q40 > 0) ||
+                                       (work->law.lower && d->motor_speed_q40 < 0));
     } else if (d->limited) {
         int64_t below_q40 = carom_shl(d->lower_q32, 8) - now_q40;
         int64_t above_q40 = carom_shl(d->upper_q32, 8) - now_q40;
