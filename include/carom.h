@@ -70,7 +70,7 @@ enum carom_error {
     CAROM_ERR_MESH_DEGENERATE = -13, /**< a face without area */
     CAROM_ERR_MESH_OPEN = -14,       /**< an edge of a SOLID has only one face */
     CAROM_ERR_MESH_EDGE = -15,       /**< an edge has three faces, or two that run the same way */
-    CAROM_ERR_MESH_INSIDE_OUT = -16, /**< a SOLID of negative volume, a SURFACE that looks down */
+    CAROM_ERR_MESH_INSIDE_OUT = -16, /**< a part of a SOLID is inside out, a SURFACE looks down */
     CAROM_ERR_MESH_SURFACE = -17,    /**< a face of a SURFACE is not single-valued in z */
     CAROM_ERR_FORMAT = -18,          /**< a blob or snapshot cut, altered or of another world */
     CAROM_ERR_BLOCKED = -19,         /**< a body would be pressed into another one */

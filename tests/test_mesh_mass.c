@@ -58,28 +58,20 @@ static void add_box(struct shape *s, const int16_t low[3], const int16_t high[3]
     finish(s, v + 8, f + 12, quantum_bits);
 }
 
-static void make_tetrahedron(struct shape *s, struct test_random *r, int quantum_bits)
+/* A tetrahedron by four corners, outward whichever way they turn; false if it is flat. */
+static bool close_tetrahedron(struct shape *s, int quantum_bits)
 {
     static const uint16_t sides[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    int64_t det = 0;
+    int64_t det = 0, e[3][3];
 
-    while (det == 0) {
-        int64_t e[3][3];
-
-        for (int i = 0; i < 4; i++) {
-            for (int k = 0; k < 3; k++) {
-                s->vertices[i][k] = (int16_t)test_random_range(r, -32768, 32767);
-            }
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            e[i][k] = s->vertices[i + 1][k] - s->vertices[0][k];
         }
-        for (int i = 0; i < 3; i++) {
-            for (int k = 0; k < 3; k++) {
-                e[i][k] = s->vertices[i + 1][k] - s->vertices[0][k];
-            }
-        }
-        for (int i = 0; i < 3; i++) {
-            det += e[0][i] *
-                   (e[1][(i + 1) % 3] * e[2][(i + 2) % 3] - e[1][(i + 2) % 3] * e[2][(i + 1) % 3]);
-        }
+    }
+    for (int i = 0; i < 3; i++) {
+        det += e[0][i] *
+               (e[1][(i + 1) % 3] * e[2][(i + 2) % 3] - e[1][(i + 2) % 3] * e[2][(i + 1) % 3]);
     }
     memcpy(s->faces, sides, sizeof sides);
     for (int i = 0; det < 0 && i < 4; i++) {
@@ -87,6 +79,37 @@ static void make_tetrahedron(struct shape *s, struct test_random *r, int quantum
         s->faces[i][1] = sides[i][0];
     }
     finish(s, 4, 4, quantum_bits);
+    return det != 0;
+}
+
+static void make_tetrahedron(struct shape *s, struct test_random *r, int quantum_bits)
+{
+    do {
+        for (int i = 0; i < 4; i++) {
+            for (int k = 0; k < 3; k++) {
+                s->vertices[i][k] = (int16_t)test_random_range(r, -32768, 32767);
+            }
+        }
+    } while (!close_tetrahedron(s, quantum_bits));
+}
+
+/* A tetrahedron with its last corner, or its last two corners, within two quanta of those before. */
+static void make_thin(struct shape *s, struct test_random *r, int near)
+{
+    do {
+        make_tetrahedron(s, r, 8);
+        for (int i = 4 - near; i < 4; i++) {
+            const int64_t part = test_random_range(r, 0, 1024);
+
+            for (int k = 0; k < 3; k++) {
+                const int16_t *from = s->vertices[0], *to = s->vertices[1];
+                int64_t at = from[k] + (to[k] - from[k]) * part / 1024;
+
+                at += test_random_range(r, -2, 2);
+                s->vertices[i][k] = (int16_t)(at < -32768 ? -32768 : at > 32767 ? 32767 : at);
+            }
+        }
+    } while (!close_tetrahedron(s, 8));
 }
 
 static double entry(const struct carom_sym3 *s, int n)
@@ -313,6 +336,54 @@ static void test_refused(void)
     CHECK_EQ(memcmp(&m, &before, sizeof m), 0);
 }
 
+/*
+ * A cube with a rod of 14 x 14 x 100 that is inside out, 200 to 300 from its middle: volume, centre and moments are those of a solid, but
+ * along the way to the rod the second moment of the cube, 8.3e8, is less than that of the rod, 1.2e9. The rod lies along an axis, or
+ * in the diagonal of two, where no moment about an axis shows it.
+ */
+static void test_no_solid(void)
+{
+    static struct shape s;
+    struct carom_mass m;
+
+    for (int way = 0; way < 6; way++) {
+        const int axis = way % 3;
+        int16_t low[3] = {-50, -50, -50}, high[3] = {50, 50, 50};
+
+        memset(&s, 0, sizeof s);
+        add_box(&s, low, high, 8);
+        CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
+        for (int k = 0; k < 3; k++) {
+            low[k] = -7;
+            high[k] = 7;
+        }
+        low[axis] = 200;
+        high[axis] = 300;
+        if (way > 2) {
+            low[axis] = low[(axis + 1) % 3] = 150;
+            high[axis] = high[(axis + 1) % 3] = 177; /* 27 x 27 x 27 has the volume of the rod */
+            low[(axis + 2) % 3] = -13;
+            high[(axis + 2) % 3] = 14;
+        }
+        add_box(&s, low, high, 8);
+        turn_inside_out(&s, 12, 12);
+        CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_ERR_MESH_INSIDE_OUT);
+    }
+}
+
+/* Solids of almost no thickness in one direction or two have an inertia, though rounding takes a second moment below 0. */
+static void test_thin(void)
+{
+    struct test_random r = {11};
+    static struct shape s;
+    struct carom_mass m;
+
+    for (int i = 0; i < CASES; i++) {
+        make_thin(&s, &r, 1 + i % 2);
+        CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
+    }
+}
+
 /* ---------------------------------------------------------------------- invert */
 
 static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
@@ -489,6 +560,8 @@ const struct test tests_mesh_mass[] = {
     {"mesh_mass/two_boxes", test_two_boxes},
     {"mesh_mass/moved", test_moved},
     {"mesh_mass/refused", test_refused},
+    {"mesh_mass/no_solid", test_no_solid},
+    {"mesh_mass/thin", test_thin},
     {"mesh_mass/invert", test_invert},
     {"mesh_mass/spread", test_spread},
     {"mesh_mass/invert_exact", test_invert_exact},

@@ -259,6 +259,46 @@ static void test_near_limits(void)
 }
 
 /*
+ * A motor presses A into a limit, and a spring between A and B pulls A off, by 1/512 of mass 1 a frame
+ * and more softly later. A motor of 1/64 holds A, which has no velocity after a frame; one of 1/4096 cannot.
+ */
+static void test_pressed(void)
+{
+    for (int way = 0; way < 4; way++) {
+        const int sign = way & 1 ? -1 : 1;
+        const bool holds = way & 2;
+        struct carom_joint_def j;
+
+        setup(0);
+        CHECK_EQ(add(0, 0, 0), 0);
+        CHECK_EQ(add(2 * UNIT, 0, 0), 1);
+        j = joint(CAROM_JOINT_SLIDER, 0, CAROM_WORLD, 0, 0, 0);
+        j.drive.limited = j.drive.motor = true;
+        j.drive.lower_q32 = sign < 0 ? 0 : -UNIT;
+        j.drive.upper_q32 = sign < 0 ? UNIT : 0;
+        j.drive.motor_speed_q40 = sign * ONE / 32;
+        j.drive.motor_most_q40 = holds ? ONE / 64 : ONE / 4096;
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+        j = joint(CAROM_JOINT_SLIDER, 1, 0, UNIT, 0, 0);
+        j.drive.spring = true;
+        j.drive.stiffness_q40 = ONE / 256;
+        j.drive.rest_q32 = sign * UNIT / 2;
+        CHECK_EQ(carom_joint_add(world, &j), 1);
+        for (int frame = 0; frame < 10; frame++) {
+            steps(1);
+            if (holds) {
+                CHECK_NEAR(state_of(0).velocity.c[2], 0, 1 << 14);
+                CHECK_NEAR(state_of(0).position.c[2], 0, UNIT >> 20);
+            }
+        }
+        CHECK_MORE(sign * state_of(1).velocity.c[2], ONE / 128);
+        if (!holds) {
+            CHECK_LESS(sign * state_of(0).position.c[2], -UNIT / 64);
+        }
+    }
+}
+
+/*
  * A hangs on the world, and a kinematic body leads it away by a part of a skin: no round of solves brings both joints together. The
  * last round counts as one of a hit at the first unit of time after the start of the frame, and not at the start.
  */
@@ -335,5 +375,6 @@ const struct test tests_step_joint[] = {
     {"step_joint/room", test_room},
     {"step_joint/first_moment", test_first_moment},
     {"step_joint/near_limits", test_near_limits},
+    {"step_joint/pressed", test_pressed},
     {0},
 };

@@ -4,6 +4,8 @@
 
 /* A matrix whose smallest eigenvalue is below 2^-24 of the largest counts as singular. */
 #define SINGULAR_BITS 24
+/* What rounding may take from a second moment: an entry of the inertia is off by two units at most, half of a trace by three and a half. */
+#define ROUNDED 8
 
 /*
  * Each face spans a tetrahedron with the origin. With det = a . (b x c) and s = a + b + c its
@@ -192,6 +194,52 @@ static int64_t volume_q32(int64_t volume6, int quantum_bits)
     return (n + d / 2) / d;
 }
 
+/* The cofactors and the determinant of a symmetric matrix, exact: entries of 2^30 give below 2^61 and 2^93. */
+struct adjugate {
+    int64_t cofactor[6];
+    struct fix_wide det;
+};
+
+static void find_adjugate(struct adjugate *out, const int32_t m[6])
+{
+    static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
+
+    out->det = (struct fix_wide){0, 0};
+    for (int n = 0; n < 6; n++) {
+        const uint8_t *a = fix_sym3_at[(row[n] + 1) % 3], *b = fix_sym3_at[(row[n] + 2) % 3];
+        int i = (col[n] + 1) % 3, j = (col[n] + 2) % 3;
+
+        out->cofactor[n] = (int64_t)m[a[i]] * m[b[j]] - (int64_t)m[a[j]] * m[b[i]];
+    }
+    for (int k = 0; k < 3; k++) {
+        fix_wide_add_product(&out->det, m[fix_sym3_at[0][k]], out->cofactor[fix_sym3_at[0][k]]);
+    }
+}
+
+/* True if a matrix whose first entry is positive is positive in all directions. */
+static bool is_positive(const struct adjugate *a)
+{
+    return fix_wide_sign(&a->det) > 0 && a->cofactor[0] > 0 && a->cofactor[1] > 0 &&
+           a->cofactor[2] > 0;
+}
+
+/*
+ * True if a solid may have an inertia I: its second moments, tr I / 2 - I, are positive in all directions. A mesh with
+ * a part that is inside out may have a moment I1 above I2 + I3, and its spin would have no path (SPEC.md, 5.1).
+ */
+static bool is_of_solid(const int32_t inertia[6])
+{
+    const int64_t half = ((int64_t)inertia[0] + inertia[1] + inertia[2]) / 2 + ROUNDED;
+    int32_t second[6];
+    struct adjugate a;
+
+    for (int n = 0; n < 6; n++) {
+        second[n] = n < 3 ? (int32_t)(half - inertia[n]) : -inertia[n];
+    }
+    find_adjugate(&a, second);
+    return second[0] > 0 && is_positive(&a);
+}
+
 int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
 {
     struct frame about = {raw, {0, 0, 0}, 0};
@@ -229,55 +277,47 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
         ratio[n] = fix_wide_ratio(&inertia20[n], &det20);
     }
     share_exponent(&mass.inertia, ratio);
+    if (!is_of_solid(mass.inertia.m)) {
+        return CAROM_ERR_MESH_INSIDE_OUT;
+    }
     mass.inertia.e += 2 * (raw->quantum_bits + about.bits);
     mass.volume_q32 = volume_q32(volume6, raw->quantum_bits);
     *out = mass;
     return CAROM_OK;
 }
 
-/*
- * The inverse is the adjugate over the determinant, both exact: entries of at most 2^30 give cofactors
- * below 2^61 and a determinant below 2^93.
- */
+/* The inverse is the adjugate over the determinant. */
 int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest)
 {
-    static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
-    struct fix_wide det = {0, 0};
+    struct adjugate a;
     struct fix_scaled ratio[6];
-    int64_t cofactor[6];
     uint64_t all = 0, size = 0;
 
+    find_adjugate(&a, in->m);
     for (int n = 0; n < 6; n++) {
-        const uint8_t *a = fix_sym3_at[(row[n] + 1) % 3], *b = fix_sym3_at[(row[n] + 2) % 3];
-        int i = (col[n] + 1) % 3, j = (col[n] + 2) % 3;
-
-        cofactor[n] = (int64_t)in->m[a[i]] * in->m[b[j]] - (int64_t)in->m[a[j]] * in->m[b[i]];
-        all |= (uint64_t)carom_abs(cofactor[n]);
+        all |= (uint64_t)carom_abs(a.cofactor[n]);
         size |= (uint64_t)carom_abs(in->m[n]);
     }
-    for (int k = 0; k < 3; k++) {
-        fix_wide_add_product(&det, in->m[fix_sym3_at[0][k]], cofactor[fix_sym3_at[0][k]]);
-    }
-    if (fix_wide_sign(&det) <= 0 || cofactor[0] <= 0 || cofactor[1] <= 0 || cofactor[2] <= 0 ||
-        fix_wide_bits(&det) < fix_bits(all) + fix_bits(size) - SINGULAR_BITS) {
+    if (!is_positive(&a) ||
+        fix_wide_bits(&a.det) < fix_bits(all) + fix_bits(size) - SINGULAR_BITS) {
         return -1;
     }
     for (int n = 0; n < 6; n++) {
-        const struct fix_wide wide = fix_wide_mul(cofactor[n], 1);
+        const struct fix_wide wide = fix_wide_mul(a.cofactor[n], 1);
 
-        ratio[n] = fix_wide_ratio(&wide, &det);
+        ratio[n] = fix_wide_ratio(&wide, &a.det);
     }
     share_exponent(out, ratio);
     for (int n = 0; n < 6; n++) {
         /* cofactor 2^e - m det, at most 1.5 det: 2^e is below 2^62, m times an entry below 2^60 */
-        struct fix_wide left = fix_wide_mul(cofactor[n], (int64_t)1 << out->e);
+        struct fix_wide left = fix_wide_mul(a.cofactor[n], (int64_t)1 << out->e);
 
         for (int k = 0; k < 3; k++) {
             int64_t part = -(int64_t)out->m[n] * in->m[fix_sym3_at[0][k]];
 
-            fix_wide_add_product(&left, part, cofactor[fix_sym3_at[0][k]]);
+            fix_wide_add_product(&left, part, a.cofactor[fix_sym3_at[0][k]]);
         }
-        rest->m[n] = (int32_t)fix_mul_scaled((int64_t)1 << 29, fix_wide_ratio(&left, &det));
+        rest->m[n] = (int32_t)fix_mul_scaled((int64_t)1 << 29, fix_wide_ratio(&left, &a.det));
     }
     out->e -= in->e;
     rest->e = out->e + 29;

@@ -17,8 +17,10 @@
  *         the centre of mass in the mesh's axes
  *
  * Error    1e-8 of the largest entry
- * Returns  CAROM_OK; CAROM_ERR_MESH_INSIDE_OUT when the volume is negative;
- *          CAROM_ERR_MESH_EMPTY when it is zero. Unless CAROM_OK, nothing is written.
+ * Returns  CAROM_OK; CAROM_ERR_MESH_EMPTY when the volume is zero; CAROM_ERR_MESH_INSIDE_OUT when it is
+ *          negative, or no solid has this centre or these moments, since a part is inside out;
+ *          CAROM_ERR_RANGE when the mesh winds around its inside more than once. Unless CAROM_OK,
+ *          nothing is written.
  */
 int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out);
 

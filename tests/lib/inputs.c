@@ -27,6 +27,10 @@ const struct input inputs[] = {
      "09e5d43242ede4cb66a00239e6a29aaed84d8b9c31310f31cfd1fec7d1fcffff0e003434343434343430303030"
      "303030303030303030313631323635383431343739373460f060f0ae00a00f60f0310160f0a00f0500a00fa00f"
      "0200313435383230000000000000003b3431373230353830313335b434c2cf30303030ffff30"},
+    {"mesh",
+     "a mesh with a part inside out, whose moments no solid has: the path of its spin left 64 bits",
+     "80611ac3762f2c2c6e4365539de530ceaccbb5ac8d08ca36a1227d059428395553685d4b5d0b796fa6494efee3"
+     "a1e530ce3de9723823c7fd388461ca61cd2e04c19dc6ebb7ab0dacc5c5e4893de9723823c78fa32eda9710a182"},
     {"snapshot", "a kept impulse above 2^40 units left the friction cone",
      "baad08d1ab21fbfbfbfbfbfbfbfbfbfbfbfb72eb6e29010000000000000100000000000001000000010000af00c"
      "a"},
