@@ -4,7 +4,10 @@
 
 /* A matrix whose smallest eigenvalue is below 2^-24 of the largest counts as singular. */
 #define SINGULAR_BITS 24
-/* What rounding may take from a second moment: an entry of the inertia is off by two units at most, half of a trace by three and a half. */
+/*
+ * Rounding may take this much from a second moment, in units of the inertia's mantissas. A ratio is right to two
+ * units: a moment is off by three and a half, and the two other entries of its row by two each.
+ */
 #define ROUNDED 8
 
 /*
@@ -286,7 +289,7 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
     return CAROM_OK;
 }
 
-/* The inverse is the adjugate over the determinant. */
+/* The inverse is the adjugate over the determinant; both are exact, so thin bodies lose nothing to cancellation. */
 int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest)
 {
     struct adjugate a;
