@@ -181,6 +181,26 @@ static void rose(void)
     }
 }
 
+/* As before, with the plate in the way, and one of the two left the world up there: both are where they were, and it stays out. */
+static void rose_and_left(void)
+{
+    setup(FALL);
+    add_two();
+    def.stationary = true;
+    CHECK_EQ(add(UNIT / 2, 0, -UNIT / 2), OTHER);
+    def.stationary = false;
+    step_begin(&step, world);
+    raise(UNIT);
+    touch();
+    step.next->bodies[B].out = 1;
+    step_limit_energy(&step);
+    for (int i = A; i <= B; i++) {
+        CHECK_EQ(step.next->bodies[i].position.c[2], world->now->bodies[i].position.c[2]);
+        CHECK_EQ(step.next->bodies[i].momentum.c[2], 0);
+    }
+    CHECK(step.next->bodies[B].out);
+}
+
 /* ------------------------------------------------------------ joints */
 
 static void join_two(void)
@@ -345,6 +365,7 @@ const struct test tests_step_energy[] = {
     {"step_energy/turns_too_fast", turns_too_fast},
     {"step_energy/one_left", one_left},
     {"step_energy/rose", rose},
+    {"step_energy/rose_and_left", rose_and_left},
     {"step_energy/raised_by_a_joint", raised_by_a_joint},
     {"step_energy/turn_pays", turn_pays},
     {"step_energy/debt_alone", debt_alone},

@@ -89,8 +89,9 @@ static bool moved(const struct body_state *from, const struct body_state *to)
 }
 
 /*
- * Put the island back where the frame found it. Its momenta become zero, or a quarter of what they
- * were: with all of them it would do the same in every later frame.
+ * Put the island back where the frame found it, with the bodies that left the world in it: these stay
+ * out. Its momenta become zero, or a quarter of what they were: with all of them it would do the same
+ * in every later frame.
  */
 static void rewind_island(struct step *s, uint32_t first, bool halt)
 {
@@ -98,7 +99,7 @@ static void rewind_island(struct step *s, uint32_t first, bool halt)
         const struct body_state *before = &world_now(s->w)->bodies[i];
         struct body_state *state = &s->next->bodies[i];
 
-        if (!broad_active(&s->w->bodies[i], state)) {
+        if (before->out || !(state->out || broad_active(&s->w->bodies[i], state))) {
             continue;
         }
         s->w->bodies[i].clock.rewound = true;
