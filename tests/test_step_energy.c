@@ -327,6 +327,40 @@ static void in_a_line(void)
 }
 
 /*
+ * The energy of a spring of stiffness 1 is x^2 / 2, x being the way from where it is loose. Beyond a limit it has no less than at the
+ * limit. In eighths of a unit, for limits at 4 and 12: where it is loose, where the joint is, and x.
+ */
+static void beyond_a_limit(void)
+{
+    static const int64_t cases[][3] = {{16, 12, 4},  {16, 14, 4}, {16, 16, 4}, {16, 19, 4},
+                                       {16, 26, 10}, {16, 10, 6}, {16, 4, 12}, {16, 2, 14},
+                                       {1, 4, 3},    {1, 2, 3},   {1, 12, 11}, {1, 20, 19},
+                                       {8, 8, 0},    {8, 13, 5},  {8, 3, 5}};
+    struct carom_joint_def j;
+
+    setup(0);
+    add_two();
+    j = joint(CAROM_JOINT_DISTANCE, A, B, 0, 0, 0);
+    j.anchor_b.c[0] = UNIT;
+    j.drive = (struct carom_joint_drive){.limited = true,
+                                         .lower_q32 = UNIT / 2,
+                                         .upper_q32 = 3 * UNIT / 2,
+                                         .spring = true,
+                                         .stiffness_q40 = ONE};
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    step_begin(&step, world);
+    step_limit_energy(&step);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct step_account sum;
+
+        step.next->joints[0].drive.rest_q32 = UNIT / 8 * cases[i][0];
+        world->now->bodies[B].position.c[0] = UNIT / 8 * cases[i][1];
+        sum = step_audit(&step, A);
+        CHECK_NEAR(q60(&sum.kept), (int64_t)(cases[i][2] * cases[i][2]) << 54, (int64_t)1 << 40);
+    }
+}
+
+/*
  * Two joined boxes that touch lost their motion and came up, and the limits of their joint took more than that in the frame. Half of a unit takes
  * less energy than their motion had: they have less than before, and stay there. A whole unit takes more: the frame is undone. So it is
  * in the air, where a plate is in the way of the two as one body, and for two that touch that plate.
@@ -370,6 +404,7 @@ const struct test tests_step_energy[] = {
     {"step_energy/turn_pays", turn_pays},
     {"step_energy/debt_alone", debt_alone},
     {"step_energy/in_a_line", in_a_line},
+    {"step_energy/beyond_a_limit", beyond_a_limit},
     {"step_energy/took_again", took_again},
     {0},
 };

@@ -14,6 +14,30 @@ static uint32_t island_of(const struct step *s, const struct joint *j)
     return s->w->bodies[side].island.lowest;
 }
 
+static int64_t larger_of(int64_t a_q40, int64_t b_q40)
+{
+    return (a_q40 < 0 ? -a_q40 : a_q40) < (b_q40 < 0 ? -b_q40 : b_q40) ? b_q40 : a_q40;
+}
+
+/*
+ * How far a spring is from the place where it is loose. Beyond a limit it counts no less than at the
+ * limit. Else a spring that drew its joint past the limit would give energy, and no motion that is
+ * left could bring the joint back.
+ */
+static int64_t stretch_q40(const struct carom_joint_drive *d, int64_t coordinate_q40)
+{
+    const int64_t lower_q40 = carom_shl(d->lower_q32, 8), upper_q40 = carom_shl(d->upper_q32, 8);
+    const int64_t loose_q40 = carom_shl(d->rest_q32, 8);
+    int64_t held_q40 = coordinate_q40;
+
+    if (d->limited && coordinate_q40 < lower_q40) {
+        held_q40 = lower_q40;
+    } else if (d->limited && coordinate_q40 > upper_q40) {
+        held_q40 = upper_q40;
+    }
+    return larger_of(coordinate_q40 - loose_q40, held_q40 - loose_q40);
+}
+
 /*
  * Add twice the energy that a spring stores: k x^2, q80. The pull of a weak spring keeps up to 80
  * fractional bits: 40 would be off by more than the bodies may gain.
@@ -28,7 +52,7 @@ static void add_spring2(struct fix_wide *sum, const struct joint *j,
     int down;
 
     joint_measure(j, pose, &error);
-    x_q40 = error.coordinate_q40 - carom_shl(state->drive.rest_q32, 8);
+    x_q40 = stretch_q40(&state->drive, error.coordinate_q40);
     pull = fix_wide_mul(state->drive.stiffness_q40, x_q40);
     down = fix_wide_bits(&pull) - 62;
     down = fix_smaller(fix_larger(down, 0), 40);

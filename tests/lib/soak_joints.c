@@ -129,14 +129,19 @@ double soak_joint_energy(const struct crowd *crowd, const struct soak_joint *joi
 {
     const struct carom_joint_drive *d = &joint->def.drive;
     struct place p;
-    double stretch, place;
+    double at, stretch, place;
 
     *noise = 0;
     if (!d->spring || joint->gone) {
         return 0;
     }
     find(crowd, joint, &p);
-    stretch = coordinate(joint, &p) - real(d->rest_q32, 32);
+    at = coordinate(joint, &p);
+    stretch = at - real(d->rest_q32, 32);
+    if (d->limited) { /* no less than at the limit */
+        at = fmax(real(d->lower_q32, 32), fmin(real(d->upper_q32, 32), at));
+        stretch = fmax(fabs(stretch), fabs(at - real(d->rest_q32, 32)));
+    }
     /* a rotation is known to q30, and an anchor to that times its arm; for a hinge only rotations
      * count */
     place = 0x1p-29 * (1 + (joint->def.kind == CAROM_JOINT_HINGE
