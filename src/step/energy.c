@@ -89,9 +89,9 @@ static bool moved(const struct body_state *from, const struct body_state *to)
 }
 
 /*
- * Put the island back where the frame found it, with the bodies that left the world in it: these stay
- * out. Its momenta become zero, or a quarter of what they were: with all of them it would do the same
- * in every later frame.
+ * Put the island back where the frame found it. Bodies that are out go back as well, and stay out:
+ * they left the world in this frame, since one that is out joins no island. The momenta become zero,
+ * or a quarter of what they were: with all of them the island would do the same in every later frame.
  */
 static void rewind_island(struct step *s, uint32_t first, bool halt)
 {
@@ -99,7 +99,7 @@ static void rewind_island(struct step *s, uint32_t first, bool halt)
         const struct body_state *before = &world_now(s->w)->bodies[i];
         struct body_state *state = &s->next->bodies[i];
 
-        if (before->out || !(state->out || broad_active(&s->w->bodies[i], state))) {
+        if (!state->out && !broad_active(&s->w->bodies[i], state)) {
             continue;
         }
         s->w->bodies[i].clock.rewound = true;
@@ -198,7 +198,7 @@ static bool is_pushed(const struct step *s, uint32_t first)
     return s->w->joint_steps && s->w->joint_steps->led_by(s, first, ISLAND_END) != ISLAND_END;
 }
 
-/* Scale the momenta of the island's bodies that left the world. All left in this frame: one that is out joins no island. */
+/* Scale the momenta of the island's bodies that left the world. */
 static void scale_left(struct step *s, uint32_t first, int32_t factor_q30)
 {
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
