@@ -326,6 +326,29 @@ static void in_a_line(void)
     CHECK_NEAR(q60(&step.next->joints[0].owed2), 0, (int64_t)1 << 34);
 }
 
+/* A kinematic body stretches a spring to a body that left the world before: it goes its way, and owes nothing. */
+static void led_alone(void)
+{
+    struct carom_joint_def j;
+
+    setup(0);
+    CHECK_EQ(add(0, 0, 0), A);
+    def.kinematic = true;
+    CHECK_EQ(add(UNIT, 0, 0), B);
+    def.kinematic = false;
+    j = joint(CAROM_JOINT_DISTANCE, A, B, 0, 0, 0);
+    j.anchor_b.c[0] = UNIT;
+    j.drive = (struct carom_joint_drive){.spring = true, .rest_q32 = UNIT, .stiffness_q40 = ONE};
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    world->now->bodies[A].out = 1;
+    step_begin(&step, world);
+    step.next->bodies[B].position.c[0] += UNIT;
+    step_limit_energy(&step);
+    CHECK_EQ(step.next->bodies[B].position.c[0], 2 * UNIT);
+    CHECK(!world->bodies[B].clock.rewound);
+    CHECK_EQ(q60(&step.next->joints[0].owed2), 0);
+}
+
 /*
  * The energy of a spring of stiffness 1 is x^2 / 2, x being the way from where it is loose. Beyond a limit it has no less than at the
  * limit. In eighths of a unit, for limits at 4 and 12: where it is loose, where the joint is, and x.
@@ -404,6 +427,7 @@ const struct test tests_step_energy[] = {
     {"step_energy/turn_pays", turn_pays},
     {"step_energy/debt_alone", debt_alone},
     {"step_energy/in_a_line", in_a_line},
+    {"step_energy/led_alone", led_alone},
     {"step_energy/beyond_a_limit", beyond_a_limit},
     {"step_energy/took_again", took_again},
     {0},

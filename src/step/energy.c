@@ -368,13 +368,19 @@ void step_undo(struct step *s, uint32_t first)
     }
 }
 
-/* The rule of an island: joints alone conserve, contact may not add. */
+/*
+ * The rule of an island: joints alone conserve, contact may not add. A kinematic body is an island of
+ * its own and has no energy, though a joint to a body that left the world may still hang on it.
+ */
 static void limit(struct step *s, uint32_t first)
 {
     const struct body *b = &s->w->bodies[first];
-    struct fix_wide *owed =
-        s->w->joint_steps && b->def.mesh ? s->w->joint_steps->owed2(s, first) : NULL;
+    struct fix_wide *owed;
 
+    if (!b->def.mesh || !b->def.moving) {
+        return;
+    }
+    owed = s->w->joint_steps ? s->w->joint_steps->owed2(s, first) : NULL;
     if (b->clock.touched) {
         if (limit_touched(s, first, owed != NULL)) {
             step_undo(s, first);
