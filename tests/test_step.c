@@ -64,7 +64,8 @@ static bool as_before(int body)
 
 /*
  * A has come up by a unit and has hardly any motion: it goes back and stops. C, which touches it, has left the world up there: it goes
- * back as well, and stays out. A kinematic body, B, has come to where A was: it goes back as well, and is blocked, which is told once. D may pass A and stays.
+ * back as well, and stays out. A kinematic body, B, has come to where A was: it goes back, too, and is blocked, which is told once. D may
+ * pass A and stays.
  */
 static void climbed(void)
 {

@@ -17,6 +17,14 @@ static void add_two(void)
     CHECK_EQ(add(UNIT, 0, 0), B);
 }
 
+/* A plate that stands just below the two. */
+static void add_plate(void)
+{
+    def.stationary = true;
+    CHECK_EQ(add(UNIT / 2, 0, -UNIT / 2), OTHER);
+    def.stationary = false;
+}
+
 /* Scale all momenta of the two at the end of the frame by a ratio. */
 static void scale(int over, int under)
 {
@@ -166,9 +174,7 @@ static void rose(void)
         setup(FALL);
         add_two();
         if (in_the_way) {
-            def.stationary = true;
-            CHECK_EQ(add(UNIT / 2, 0, -UNIT / 2), OTHER);
-            def.stationary = false;
+            add_plate();
         }
         step_begin(&step, world);
         raise(UNIT);
@@ -186,9 +192,7 @@ static void rose_and_left(void)
 {
     setup(FALL);
     add_two();
-    def.stationary = true;
-    CHECK_EQ(add(UNIT / 2, 0, -UNIT / 2), OTHER);
-    def.stationary = false;
+    add_plate();
     step_begin(&step, world);
     raise(UNIT);
     touch();
@@ -350,8 +354,9 @@ static void led_alone(void)
 }
 
 /*
- * The energy of a spring of stiffness 1 is x^2 / 2, x being the way from where it is loose. Beyond a limit it has no less than at the
- * limit. In eighths of a unit, for limits at 4 and 12: where it is loose, where the joint is, and x.
+ * A spring of stiffness 1 has the energy x^2 / 2, x being the way from where it is loose. Beyond a limit it has no less than at the
+ * limit. The limits are at 4 and 12 eighths of a unit. Each case, in eighths: where the spring is loose, where the joint is, and the x
+ * that counts.
  */
 static void beyond_a_limit(void)
 {
@@ -398,9 +403,7 @@ static void took_again(void)
         add_two();
         join_two();
         def.velocity.c[1] = 0;
-        def.stationary = true;
-        CHECK_EQ(add(UNIT / 2, 0, -UNIT / 2), OTHER);
-        def.stationary = false;
+        add_plate();
         step_begin(&step, world);
         scale(0, 1);
         raise(more ? UNIT : UNIT / 2);

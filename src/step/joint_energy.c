@@ -14,13 +14,8 @@ static uint32_t island_of(const struct step *s, const struct joint *j)
     return s->w->bodies[side].island.lowest;
 }
 
-static int64_t larger_of(int64_t a_q40, int64_t b_q40)
-{
-    return (a_q40 < 0 ? -a_q40 : a_q40) < (b_q40 < 0 ? -b_q40 : b_q40) ? b_q40 : a_q40;
-}
-
 /*
- * How far a spring is from the place where it is loose. Beyond a limit it counts no less than at the
+ * How far a spring is from the place where it is loose, q40, for its energy. Beyond a limit it counts no less than at the
  * limit. Else a spring that drew its joint past the limit would give energy, and no motion that is
  * left could bring the joint back.
  */
@@ -35,7 +30,9 @@ static int64_t stretch_q40(const struct carom_joint_drive *d, int64_t coordinate
     } else if (d->limited && coordinate_q40 > upper_q40) {
         held_q40 = upper_q40;
     }
-    return larger_of(coordinate_q40 - loose_q40, held_q40 - loose_q40);
+    coordinate_q40 -= loose_q40;
+    held_q40 -= loose_q40;
+    return carom_abs(coordinate_q40) < carom_abs(held_q40) ? held_q40 : coordinate_q40;
 }
 
 /*
