@@ -259,12 +259,12 @@ static void test_near_limits(void)
 }
 
 /*
- * A motor presses A into a limit, and a spring between A and B pulls A off, by 1/512 of mass 1 a frame
- * and more softly later. A motor of 1/64 holds A, which has no velocity after a frame; one of 1/4096 cannot.
+ * A motor or a spring presses A into a limit, and a spring between A and B pulls A off, by 1/512 of mass 1 a frame
+ * and more softly later. A press of 1/64 holds A, which has no velocity after a frame; one of 1/4096 cannot.
  */
 static void test_pressed(void)
 {
-    for (int way = 0; way < 4; way++) {
+    for (int way = 0; way < 8; way++) {
         const int sign = way & 1 ? -1 : 1;
         const bool holds = way & 2;
         struct carom_joint_def j;
@@ -273,11 +273,15 @@ static void test_pressed(void)
         CHECK_EQ(add(0, 0, 0), 0);
         CHECK_EQ(add(2 * UNIT, 0, 0), 1);
         j = joint(CAROM_JOINT_SLIDER, 0, CAROM_WORLD, 0, 0, 0);
-        j.drive.limited = j.drive.motor = true;
+        j.drive.limited = true;
         j.drive.lower_q32 = sign < 0 ? 0 : -UNIT;
         j.drive.upper_q32 = sign < 0 ? UNIT : 0;
+        j.drive.motor = way & 4;
         j.drive.motor_speed_q40 = sign * ONE / 32;
         j.drive.motor_most_q40 = holds ? ONE / 64 : ONE / 4096;
+        j.drive.spring = !j.drive.motor;
+        j.drive.stiffness_q40 = j.drive.motor_most_q40;
+        j.drive.rest_q32 = sign * UNIT;
         CHECK_EQ(carom_joint_add(world, &j), 0);
         j = joint(CAROM_JOINT_SLIDER, 1, 0, UNIT, 0, 0);
         j.drive.spring = true;
@@ -288,7 +292,7 @@ static void test_pressed(void)
             steps(1);
             if (holds) {
                 CHECK_NEAR(state_of(0).velocity.c[2], 0, 1 << 14);
-                CHECK_NEAR(state_of(0).position.c[2], 0, UNIT >> 20);
+                CHECK_NEAR(state_of(0).position.c[2], 0, UNIT >> 18);
             }
         }
         CHECK_MORE(sign * state_of(1).velocity.c[2], ONE / 128);
@@ -296,6 +300,31 @@ static void test_pressed(void)
             CHECK_LESS(sign * state_of(0).position.c[2], -UNIT / 64);
         }
     }
+}
+
+/*
+ * B swings about A, which slides along z and touches a wall above it: the pull of the swing presses A into the wall. A has no velocity
+ * after a frame, and B keeps its speed.
+ */
+static void test_pulled_to_a_wall(void)
+{
+    struct carom_joint_def j;
+
+    begin(0, 0, UNIT);
+    CHECK_EQ(add(0, 0, UNIT * 3 / 4 - SKIN / 2), A);
+    def.velocity.c[0] = ONE / 16;
+    CHECK_EQ(add(0, 0, UNIT * 11 / 4), B);
+    j = joint(CAROM_JOINT_SLIDER, A, CAROM_WORLD, 0, 0, 0);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    j = joint(CAROM_JOINT_HINGE, B, A, 0, 0, UNIT * 3 / 4);
+    j.axis = (carom_v3_q30){{0, CAROM_ONE_Q30, 0}};
+    CHECK_EQ(carom_joint_add(world, &j), 1);
+    for (int frame = 0; frame < 20; frame++) {
+        steps(1);
+        CHECK_NEAR(state_of(A).velocity.c[2], 0,
+                   frame > 0 ? 1 << 17 : ONE >> 11); /* the world was new */
+    }
+    CHECK_MORE(state_of(B).velocity.c[0], ONE / 24);
 }
 
 /*
@@ -376,5 +405,6 @@ const struct test tests_step_joint[] = {
     {"step_joint/first_moment", test_first_moment},
     {"step_joint/near_limits", test_near_limits},
     {"step_joint/pressed", test_pressed},
+    {"step_joint/pulled_to_a_wall", test_pulled_to_a_wall},
     {0},
 };

@@ -310,16 +310,6 @@ static void refresh(const struct rest *r, struct joint *j)
     }
 }
 
-/* True if the last row's V became one that a limit asked for, but for the solver's rounding. */
-static bool at_limit(const struct joint_work *work, int64_t before_q40, int64_t after_q40)
-{
-    int64_t change_q40 = after_q40 - before_q40;
-    int64_t near_q40 = ((carom_abs(before_q40) + carom_abs(after_q40)) >> 12) + 16;
-
-    return work->law.lower &&
-           (change_q40 <= work->low_q40 + near_q40 || change_q40 >= work->high_q40 - near_q40);
-}
-
 /* A part of a spring's last pull was taken back. */
 static void take_back(struct joint_work *work)
 {
@@ -354,9 +344,7 @@ static void book_drive(struct joint *j)
             work->given_q40 = work->law.lower ? pull_q40 : p_q40 - work->push_q40;
             work->given_q30 = work->pull_q30;
             work->pulled_q30 += work->pull_q30;
-            /* what a limit stops has no second half: the limit would have to answer it */
-            work->second_q40 =
-                work->halved && !at_limit(work, before_q40, after_q40) ? pull_q40 : 0;
+            work->second_q40 = work->halved ? pull_q40 : 0;
         }
         p_q40 -= pull_q40 + work->push_q40;
     }

@@ -66,6 +66,21 @@ int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
     return least_q30;
 }
 
+/* True if a body of a group touched another one when the frame began. */
+static bool was_touched(const struct step *s, uint16_t group)
+{
+    const struct world_state *before = world_now(s->w);
+
+    for (uint32_t i = 0; i < before->touching_count; i++) {
+        const struct pair *p = &before->touching[i];
+
+        if (s->w->bodies[p->a].def.joined == group || s->w->bodies[p->b].def.joined == group) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool connect_group_is_free(const struct step *s, uint16_t group)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
@@ -76,7 +91,7 @@ bool connect_group_is_free(const struct step *s, uint16_t group)
             return false;
         }
     }
-    return true;
+    return !was_touched(s, group);
 }
 
 /* ----------------------------------------------------------------------- measure */

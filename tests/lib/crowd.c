@@ -379,7 +379,9 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
     }
     for (int a = 0; a < crowd->body_count; a++) {
         for (int b = 0; b < crowd->body_count; b++) {
-            if (crowd->touching[a][b]) {
+            /* bodies that left the world before are frozen, and go on touching */
+            if (crowd->touching[a][b] && !crowd->bodies[a].before.state.out &&
+                !crowd->bodies[b].before.state.out) {
                 touch(crowd, a, b);
             }
         }
