@@ -157,7 +157,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy costs special oracle fixtures physics proof analysis faults worst soak meshes mutants coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy costs special oracle fixtures physics proof contracts analysis faults worst soak meshes mutants coverage fuzz bytes snapshots bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -275,6 +275,10 @@ soak: ## run random worlds under an independent checker, to out/soak.csv and doc
 proof: ## prove the programs of tests/proof for all inputs, to out/proof.csv and docs/evidence.md; NAMES= SHORT=1
 	@tools/need python3 z3 cvc5 clang-19 cc libc
 	@tools/proof.py $(if $(SHORT),--short) $(NAMES)
+
+contracts: ## prove the contracts of tests/contracts by Frama-C, and run parts of gauss in Eva, to docs/evidence.md; NAMES= SHORT=1
+	@tools/need python3 cc frama-c
+	@tools/contracts.py $(if $(SHORT),--short) $(NAMES)
 
 analysis: ## gcc -fanalyzer, clang-tidy, cppcheck with MISRA, the newest compilers; to docs/evidence.md; SHORT=1
 	@tools/analysis.py $(if $(SHORT),--short)
