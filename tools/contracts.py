@@ -112,7 +112,7 @@ def detect():
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--short", action="store_true", help="no mutants; compares with what is kept")
-    parser.add_argument("--seconds", type=int, default=10, help="for a prover and a goal")
+    parser.add_argument("--seconds", type=int, default=20, help="for a prover and a goal")
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
     os.makedirs(WORK, exist_ok=True)
