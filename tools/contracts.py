@@ -75,7 +75,7 @@ def wp(contracts, folder, machine, functions, seconds):
         "-wp-session", session, "-wp-par", "2", "-wp-timeout", str(seconds)])
     counted = re.search(r"Proved goals: *(\d+) */ *(\d+)", said)
     if not counted:
-        return 0, 1, ["Frama-C ends: " + said.strip()[-300:]]
+        sys.exit("%s: Frama-C ends: %s" % (contracts.path, said.strip()[-300:]))
     return int(counted[1]), int(counted[2]), re.findall(r"\[Failed\] Goal (\S+)", said)
 
 
@@ -90,7 +90,7 @@ def eva(contracts, folder, functions):
         found = re.findall(r"\[eva:alarm\] (\S+): Warning:\s+(.*?)\.?\n", said)
         alarms += ["%s: %s %s" % (name, *alarm) for alarm in found]
         if not ended or int(ended[1]) != len(found):
-            alarms.append("%s: Frama-C ends: %s" % (name, said.strip()[-300:]))
+            sys.exit("%s: Frama-C ends: %s" % (contracts.path, said.strip()[-300:]))
     return alarms
 
 
