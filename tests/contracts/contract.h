@@ -2,8 +2,8 @@
 /*
  * contract - what the contracts of this folder have in common: tools/contracts.py gives them to Frama-C's WP.
  *
- * An assertion of the engine must hold, so its failure may never be called. What WP is not able to see of bits is
- * assumed here, and tests/proof proves it for all inputs.
+ * An assertion of the engine must hold, so its failure may never be called. What WP's theory of bits lacks is assumed
+ * here: a shift to the right rounds down, 2^32 2^s is 2^(32 + s), and a mask takes the rest of a division by 8 off.
  */
 #ifndef CAROM_TESTS_CONTRACT_H
 #define CAROM_TESTS_CONTRACT_H

@@ -98,17 +98,25 @@ void any_eliminations(void)
     any_elimination(-FULL, -SMALLEST_PIVOT);
 }
 
+static void any_diagonal_of(int low, int high)
+{
+    any_numbers();
+    for (int i = 0; i < GAUSS_MAX; i++) {
+        for (int j = 0; j < GAUSS_MAX; j++) {
+            g.a[i][j] = number(low, high);
+        }
+    }
+    invert_diagonal(&g, n);
+}
+
 /* Diagonals of one number of bits and one sign: the loop looks at each entry alone. */
 void any_diagonal(void)
 {
     for (int bits = 0; bits <= 30; bits++) {
-        any_numbers();
-        for (int i = 0; i < GAUSS_MAX; i++) {
-            for (int j = 0; j < GAUSS_MAX; j++) {
-                g.a[i][j] = number(1 << bits, bits < 30 ? (2 << bits) - 1 : FULL);
-            }
-        }
-        invert_diagonal(&g, n);
+        int low = 1 << bits, high = bits < 30 ? 2 * low - 1 : FULL;
+
+        any_diagonal_of(low, high);
+        any_diagonal_of(-high, -low);
     }
 }
 
