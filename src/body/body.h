@@ -136,6 +136,7 @@ struct body_clock {
     bool touched;      /* was in contact in the last frame; at the end: its island may not gain */
     bool grounded : 1; /* touches a body that stands still; an island's lowest: any of it does */
     bool rewound : 1;  /* was put back to where the frame found it */
+    bool pressed : 1;  /* a contact pressed it when the frame began */
 };
 
 /* The motion that a body's region was set for. */

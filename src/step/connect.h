@@ -37,9 +37,9 @@ static inline bool connect_stands_fast(const struct step *s, uint16_t i)
 }
 
 /*
- * True if nothing touched the bodies of a group when the frame began, no contact has held them since,
- * and all of them are awake and moved on their paths. The end of the frame makes velocities agree
- * with joints alone, so it would press bodies that a contact holds into it.
+ * True if no contact held the bodies of a group or pressed them when the frame began, and all of them
+ * are awake and moved on their paths. The end of the frame makes velocities agree with joints alone,
+ * so it would press bodies that a contact holds into it.
  */
 bool connect_group_is_free(const struct step *s, uint16_t group);
 /* See struct step_joint_calls. */

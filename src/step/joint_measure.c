@@ -66,32 +66,18 @@ int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
     return least_q30;
 }
 
-/* True if a body of a group touched another one when the frame began. */
-static bool was_touched(const struct step *s, uint16_t group)
-{
-    const struct world_state *before = world_now(s->w);
-
-    for (uint32_t i = 0; i < before->touching_count; i++) {
-        const struct pair *p = &before->touching[i];
-
-        if (s->w->bodies[p->a].def.joined == group || s->w->bodies[p->b].def.joined == group) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool connect_group_is_free(const struct step *s, uint16_t group)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
 
         if (b->def.mesh && b->def.joined == group &&
-            (!step_active(s, i) || b->clock.contact != BODY_FLIES || b->clock.stands)) {
+            (!step_active(s, i) || b->clock.contact != BODY_FLIES || b->clock.stands ||
+             b->clock.pressed)) {
             return false;
         }
     }
-    return !was_touched(s, group);
+    return true;
 }
 
 /* ----------------------------------------------------------------------- measure */

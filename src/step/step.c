@@ -29,7 +29,8 @@ FIX_APART static void begin_clock(struct body *b)
 {
     b->clock.touched = b->clock.contact != BODY_FLIES;
     b->clock.contact = BODY_FLIES;
-    b->clock.stands = b->clock.strained = b->clock.placed = b->clock.member = false;
+    b->clock.stands = b->clock.strained = b->clock.pressed = false;
+    b->clock.placed = b->clock.member = false;
     b->clock.from_q30 = b->clock.to_q30 = 0;
     b->clock.events = b->clock.cuts = b->clock.shorter = 0;
     PHASE_BEGIN(b->solve.work_phase, BODY_WORK);
