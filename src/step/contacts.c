@@ -168,22 +168,6 @@ static void note_hits(struct step *s)
     }
 }
 
-/* Note which bodies the contacts at the start of the frame press; joints ask. */
-static void note_pressed(struct step *s)
-{
-    struct carom_world *w = s->w;
-    const struct contact_list *list = &w->rest.list;
-
-    for (uint32_t i = 0; i < list->pool->used; i++) {
-        const struct contact *c = &list->contacts[i];
-        const struct pair *p = &w->pairs[c->key.pair];
-
-        if (!c->idle && rest_along_q40(contact_impulse(c), &c->normal) != 0) {
-            w->bodies[p->a].clock.pressed = w->bodies[p->b].clock.pressed = true;
-        }
-    }
-}
-
 /* Change of a contact's gap on the present paths up to a time, q22. */
 static int64_t gap_change(struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
 {
@@ -426,9 +410,6 @@ static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
         note_hits(s);
         if (!w->joint_steps || !all_in_range(s)) {
             return CAROM_OK;
-        }
-        if (s->now_q30 == 0) {
-            note_pressed(s);
         }
         first = false;
     }

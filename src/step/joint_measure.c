@@ -368,11 +368,29 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
            (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / STEP_LEFT_DIVISOR;
 }
 
+/* Note the bodies that contacts press when the frame begins: connect_group_is_free asks. */
+static void note_pressed(struct step *s)
+{
+    const struct contact_list *list = &s->w->rest.list;
+
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        const struct contact *c = &list->contacts[i];
+        const struct pair *p = &s->w->pairs[c->key.pair];
+
+        if (!c->idle && rest_along_q40(contact_impulse(c), &c->normal) != 0) {
+            s->w->bodies[p->a].clock.pressed = s->w->bodies[p->b].clock.pressed = true;
+        }
+    }
+}
+
 bool connect_measure(struct step *s, enum joint_solve solve)
 {
     bool more = false;
 
     s->w->rest.joints.solve = solve;
+    if (solve == JOINT_MORE) { /* after a solve at the start of the frame */
+        note_pressed(s);
+    }
     for (uint32_t i = 0; i < s->w->rest.joints.count; i++) {
         struct joint *j = &s->w->rest.joints.joints[i];
 

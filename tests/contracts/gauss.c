@@ -2,7 +2,7 @@
 /*
  * Eva follows each part of gauss for all numbers within its bounds and all n from 1 to 15, and finds nothing undefined.
  *
- * What one part leaves for the next is assumed here: tests/proof/gauss_*.c prove that.
+ * A part assumes bounds of what the part before it leaves: tests/proof/gauss_*.c prove these.
  *
  * assumed: carom_shl by shifts
  * eva: any_rows any_choice any_eliminations any_diagonal any_carry any_division any_residual any_digits any_going_on
@@ -56,7 +56,7 @@ static void any_numbers(void)
     }
 }
 
-/* What an elimination leaves. */
+/* The shifts, pivots and rows that an elimination leaves. */
 static void any_steps(void)
 {
     for (int k = 0; k < GAUSS_MAX; k++) {
