@@ -12,13 +12,10 @@
  * mutant: any_going_on in src/num/gauss.c: up < 64 ? -> up < 65 ?
  */
 #include <__fc_builtin.h>
-#include "num/inline.c"
+#include "contract.h"
 #include "num/fix.c"
 #define magnitude magnitude_of_32 /* fix.c has a function of this name, too */
 #include "num/gauss.c"
-
-/*@ requires \false; assigns \nothing; ensures \false; */
-_Noreturn void carom_assert_failed(const char *text, const char *file, int line);
 
 /* `make proof` proves this of carom_shl. */
 /*@ requires 0 <= s <= 63;
