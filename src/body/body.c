@@ -160,7 +160,8 @@ void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const st
     int64_t speed_q40;
     int n;
 
-    if (!b->def.moving || (p_q40 | l_q40) == 0) {
+    CAROM_ASSERT(b->def.moving);
+    if ((p_q40 | l_q40) == 0) {
         return;
     }
     if (!body_calm(b, s)) {

@@ -99,9 +99,6 @@ static void rewind_island(struct step *s, uint32_t first, bool halt)
         const struct body_state *before = &world_now(s->w)->bodies[i];
         struct body_state *state = &s->next->bodies[i];
 
-        if (!state->out && !broad_active(&s->w->bodies[i], state)) {
-            continue;
-        }
         s->w->bodies[i].clock.rewound = true;
         state->position = before->position;
         state->rotation = before->rotation;
