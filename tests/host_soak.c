@@ -47,7 +47,9 @@ struct name {
  * give back; m123 stood still where that was undone. m1426 has weak springs, m1429 a hit that a callback drops, and m1871 a spring that
  * presses a body into a wall. In m2242 a motor held a body against a spring, in m2080 joints' limits took what their solves had given
  * in a touched group: bodies stood still. In m4614 a spring pressed a body into a limit and another one drew it off, in m4703 a body
- * swung about another one and pressed it into a third: these seemed to move, and did not.
+ * swung about another one and pressed it into a third: these seemed to move, and did not. m5577 gained energy by hits that a callback
+ * drops where nothing touched, m4514 by roundings of a group's common motion, and in m5674 a motor pressed two bodies against each other
+ * until they stood.
  */
 static const struct name known_machines[] = {
     {50, MACHINE, 0},    {102, MACHINE, 0},   {121, MACHINE, 0},    {150, MACHINE, 0},
@@ -56,8 +58,8 @@ static const struct name known_machines[] = {
     {800, MACHINE, 20},  {125, MACHINE, 60},  {791, MACHINE, 80},   {828, MACHINE, 120},
     {865, MACHINE, 80},  {1426, MACHINE, 60}, {1429, MACHINE, 140}, {1871, MACHINE, 60},
     {123, MACHINE, 90},  {2080, MACHINE, 50}, {2242, MACHINE, 50},  {4614, MACHINE, 20},
-    {4703, MACHINE, 20}, {14, WILD, 0},       {68, WILD, 60},       {86, WILD, 60},
-    {123, WILD, 0}};
+    {4703, MACHINE, 20}, {4514, MACHINE, 0},  {5577, MACHINE, 190}, {5674, MACHINE, 30},
+    {14, WILD, 0},       {68, WILD, 60},      {86, WILD, 60},       {123, WILD, 0}};
 /* Largest share of frames that may be cut short. */
 #define CUT_ALLOWED 0.01
 

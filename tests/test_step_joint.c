@@ -303,6 +303,32 @@ static void test_pressed(void)
 }
 
 /*
+ * A motor presses two boxes that fly together against each other. Their contact opens a gap against
+ * the motor, and they keep their momentum, though a wall beside their way does not let them go
+ * through a frame as one.
+ */
+static void test_pressed_together(void)
+{
+    struct carom_joint_def j;
+
+    begin(0, UNIT / 2, -UNIT * 9 / 10);
+    def.velocity.c[1] = ONE / 64;
+    CHECK_EQ(add(0, 0, 0), A);
+    CHECK_EQ(add(UNIT + 2 * SKIN, 0, 0), B);
+    j = joint(CAROM_JOINT_HINGE, B, A, UNIT / 2 + SKIN, 0, UNIT / 2);
+    j.axis = (carom_v3_q30){{0, CAROM_ONE_Q30, 0}};
+    j.touch = true;
+    j.drive.motor = true;
+    j.drive.motor_speed_q40 = ONE / 8;
+    j.drive.motor_most_q40 = ONE / 32;
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    for (int frame = 0; frame < 60; frame++) {
+        steps(1);
+        CHECK_NEAR(state_of(A).velocity.c[1] + state_of(B).velocity.c[1], ONE / 32, ONE >> 24);
+    }
+}
+
+/*
  * B swings about A, which slides along z and touches a wall above it: the pull of the swing presses A into the wall. A has no velocity
  * after a frame, and B keeps its speed.
  */
@@ -405,5 +431,6 @@ const struct test tests_step_joint[] = {
     {"step_joint/near_limits", test_near_limits},
     {"step_joint/pressed", test_pressed},
     {"step_joint/pulled_to_a_wall", test_pulled_to_a_wall},
+    {"step_joint/pressed_together", test_pressed_together},
     {0},
 };

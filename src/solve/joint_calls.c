@@ -354,8 +354,11 @@ static void book_drive(struct joint *j)
                             : limited && p_q40 < -work->most_q40 ? -work->most_q40
                                                                  : p_q40;
 
-        fix_wide_add_product(&own->solve.work2, motor_q40, before_q40 + after_q40);
-        p_q40 -= motor_q40;
+        /* against the motor the bodies do the work, as against a limit */
+        if ((motor_q40 < 0) == (before_q40 + after_q40 < 0)) {
+            fix_wide_add_product(&own->solve.work2, motor_q40, before_q40 + after_q40);
+            p_q40 -= motor_q40;
+        }
     }
     fix_wide_add_product(&work->given2, p_q40, before_q40 + after_q40);
 }

@@ -246,38 +246,58 @@ static int32_t factor_of(const struct fix_wide *motion, struct step_account *sum
 }
 
 /*
+ * Take the excess of an island in the air out of its bodies' motion against each other. True if that
+ * has too little. One body may gain some that left its path for a hit which was no contact: between
+ * the ends of a slice a turning path does not keep the energy. Where the common motion has nearly all
+ * of the energy, its roundings may leave an excess, and the second round takes that.
+ */
+static FIX_OWN_FRAME bool limit_free(struct step *s, uint32_t first, struct step_account *sum)
+{
+    struct rest_rigid rigid;
+
+    if (rest_is_alone(&s->w->rest, first) || !rest_rigid_motion(&s->w->rest, first, &rigid)) {
+        return true;
+    }
+    for (int round = 0; round < 2 && gains(sum); round++) {
+        struct fix_wide beside = step_beside2(s, &rigid, &sum->kinetic);
+        int32_t factor_q30 = factor_of(&beside, sum);
+
+        if (factor_q30 == CAROM_ONE_Q30) {
+            break;
+        }
+        rest_scale_free(&s->w->rest, &rigid, factor_q30);
+        if (factor_q30 == 0) {
+            return true;
+        }
+        *sum = step_audit(s, first);
+    }
+    return false;
+}
+
+/*
  * Take the excess out of an island's momenta. True if it is in the air and its rigid motion alone has
- * more energy than it may have. One body may gain some that left its path for a hit which was no
- * contact: between the ends of a slice a turning path does not keep the energy.
+ * more energy than it may have.
  */
 static FIX_OWN_FRAME bool limit_island(struct step *s, uint32_t first)
 {
     struct step_account sum = step_settle_left(s, first);
-    struct rest_rigid rigid;
-    struct fix_wide beside;
     int32_t factor_q30;
 
     if (!gains(&sum)) {
         return false;
     }
-    if (s->w->bodies[first].clock.grounded) {
-        factor_q30 = factor_of(&sum.kinetic, &sum);
-        if (factor_q30 == 0 && is_pushed(s, first)) {
-            rest_scale_grounded(&s->w->rest, first, 0); /* the kinematic body may be where it was */
-        } else if (factor_q30 == 0) {
-            hold_still(s, first); /* it climbed by more energy than it has to give */
-        } else {
-            rest_scale_grounded(&s->w->rest, first, factor_q30);
-        }
-        return false;
+    if (!s->w->bodies[first].clock.grounded) {
+        return limit_free(s, first, &sum);
     }
-    if (rest_is_alone(&s->w->rest, first) || !rest_rigid_motion(&s->w->rest, first, &rigid)) {
-        return true;
+    factor_q30 = factor_of(&sum.kinetic, &sum);
+    if (factor_q30 == 0 && is_pushed(s, first)) {
+        rest_scale_grounded(&s->w->rest, first, 0); /* the kinematic body may be where it was */
+    } else if (factor_q30 == 0) {
+        hold_still(s, first); /* it climbed by more energy than it has to give */
+    } else {
+        rest_scale_grounded(&s->w->rest, first, factor_q30);
     }
-    beside = step_beside2(s, &rigid, &sum.kinetic);
-    factor_q30 = factor_of(&beside, &sum);
-    rest_scale_free(&s->w->rest, &rigid, factor_q30);
-    return factor_q30 == 0;
+    return false;
 }
 
 void step_forgive_taken(struct step_account *sum)

@@ -227,6 +227,17 @@ static void keep_carried_awake(struct step *s)
     }
 }
 
+/* True if the frame may have given a body energy: by contact, by a joint, or by a turn that it left. */
+static bool may_have_gained(const struct step *s)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        if (s->w->bodies[i].clock.strained) {
+            return true;
+        }
+    }
+    return s->next->touching_count > 0 || s->w->joint_steps;
+}
+
 /* End a whole frame. */
 static int finish(struct step *s)
 {
@@ -236,7 +247,7 @@ static int finish(struct step *s)
     if (result < 0) {
         return result;
     }
-    if (s->next->touching_count > 0 || w->joint_steps) {
+    if (may_have_gained(s)) {
         step_limit_energy(s);
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
