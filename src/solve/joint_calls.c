@@ -322,8 +322,9 @@ static void take_back(struct joint_work *work)
 }
 
 /*
- * Book the work of the last row's impulse: a motor's, and apart from it that of limits and damping.
- * A spring's own is not booked, since add_joints2 counts what it stores.
+ * Book the work of the last row's impulse: that which a motor does, and apart from it that of limits and
+ * damping. Work against a motor counts as theirs. A spring's own is not booked, since add_joints2 counts
+ * what it stores.
  */
 static void book_drive(struct joint *j)
 {
@@ -354,7 +355,6 @@ static void book_drive(struct joint *j)
                             : limited && p_q40 < -work->most_q40 ? -work->most_q40
                                                                  : p_q40;
 
-        /* against the motor the bodies do the work, as against a limit */
         if ((motor_q40 < 0) == (before_q40 + after_q40 < 0)) {
             fix_wide_add_product(&own->solve.work2, motor_q40, before_q40 + after_q40);
             p_q40 -= motor_q40;
