@@ -323,10 +323,10 @@ static void take_back(struct joint_work *work)
 
 /*
  * Book the work of the last row's impulse: that which a motor does, and apart from it that of limits and
- * damping. Work against a motor counts as theirs. A spring's own is not booked, since add_joints2 counts
- * what it stores.
+ * damping. In an island with contacts, work against a motor counts as theirs: a contact that the motor
+ * presses opens a gap. A spring's own is not booked, since add_joints2 counts what it stores.
  */
-static void book_drive(struct joint *j)
+static void book_drive(const struct rest *r, struct joint *j)
 {
     struct joint_work *work = &j->work;
     struct body *own = work->lever[0].body ? work->lever[0].body : work->lever[1].body;
@@ -355,7 +355,7 @@ static void book_drive(struct joint *j)
                             : limited && p_q40 < -work->most_q40 ? -work->most_q40
                                                                  : p_q40;
 
-        if ((motor_q40 < 0) == (before_q40 + after_q40 < 0)) {
+        if (r->count == 0 || (motor_q40 < 0) == (before_q40 + after_q40 < 0)) {
             fix_wide_add_product(&own->solve.work2, motor_q40, before_q40 + after_q40);
             p_q40 -= motor_q40;
         }
@@ -398,7 +398,7 @@ static void book(struct rest *r)
             state->axial_q40 + (work->held < work->rows ? work->row_q40[work->held] : 0), 60);
         refresh(r, j);
         if (work->held < work->rows && r->joints.solve != JOINT_PROJECT) {
-            book_drive(j);
+            book_drive(r, j);
         }
         if (work->led) {
             book_led(r, j);
