@@ -60,8 +60,10 @@ void step_leave_path(struct step *s, uint32_t i, int32_t t_q30)
         step_look_away(s, i);
     }
     if (t_q30 > b->clock.from_q30) {
-        b->clock.strained |=
-            b->path.turns && b->clock.contact == BODY_FLIES && path_time(b, t_q30) < CAROM_ONE_Q30;
+        if (b->path.turns && b->clock.contact == BODY_FLIES &&
+            path_time(b, t_q30) < CAROM_ONE_Q30) {
+            b->clock.strained = s->strained = true;
+        }
         body_region_advance(b, t_q30 - b->clock.from_q30, b->clock.to_q30 - b->clock.from_q30);
         if (!b->clock.stands) {
             body_advance(b, state, path_time(b, t_q30), b->clock.to_q30 - b->clock.from_q30,

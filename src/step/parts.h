@@ -49,6 +49,7 @@ struct step {
     bool pairs_changed; /* true if the list of interfering faces must be made again */
     bool broke;         /* true if a joint broke */
     bool cut_short;     /* true if an island stands still for a part of the frame */
+    bool strained;      /* true if a body left a turning path before its end */
     uint32_t event_cap; /* hits of one body at which it stops */
 };
 

@@ -91,7 +91,7 @@ void step_begin(struct step *s, struct carom_world *w)
     s->w = w;
     s->next = next;
     s->now_q30 = 0;
-    s->cut_short = s->pairs_changed = s->led = s->broke = false;
+    s->cut_short = s->pairs_changed = s->led = s->broke = s->strained = false;
     s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
     s->rare = w->pools[CAROM_POOL_extras].used > 0 || w->joint_steps || w->passing;
     w->rest.list.plain = is_plain(w);
@@ -227,17 +227,6 @@ static void keep_carried_awake(struct step *s)
     }
 }
 
-/* True if the frame may have given a body energy: by contact, by a joint, or by a turn that it left. */
-static bool may_have_gained(const struct step *s)
-{
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        if (s->w->bodies[i].clock.strained) {
-            return true;
-        }
-    }
-    return s->next->touching_count > 0 || s->w->joint_steps;
-}
-
 /* End a whole frame. */
 static int finish(struct step *s)
 {
@@ -247,7 +236,7 @@ static int finish(struct step *s)
     if (result < 0) {
         return result;
     }
-    if (may_have_gained(s)) {
+    if (s->next->touching_count > 0 || w->joint_steps || s->strained) {
         step_limit_energy(s);
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
