@@ -280,8 +280,8 @@ contracts: ## prove the contracts of tests/contracts by Frama-C, and run parts o
 	@tools/need python3 cc frama-c
 	@tools/contracts.py $(if $(SHORT),--short) $(NAMES)
 
-analysis: ## gcc -fanalyzer, clang-tidy, cppcheck with MISRA, the newest compilers; to docs/evidence.md; SHORT=1
-	@tools/analysis.py $(if $(SHORT),--short)
+analysis: ## gcc -fanalyzer, clang-tidy, cppcheck with MISRA, the newest compilers; to docs/evidence.md with RECORD=1
+	@tools/analysis.py $(if $(RECORD),--record)
 
 SECONDS ?= 60
 fuzz: ## libFuzzer over calls, questions, pictures, snapshots, recordings, meshes, with sanitizers; SECONDS=60 in all or N= runs each, TARGETS=calls,draw RECORD=1

@@ -56,6 +56,7 @@ static bool is_other(void *context, int body)
     return body != WALKER;
 }
 
+static struct carom_cast_workspace workspace;
 static const struct carom_query_filter only_walker = {.wants = is_walker};
 static const struct carom_query_filter others = {.wants = is_other};
 
@@ -93,7 +94,8 @@ static int lead_platform(struct carom_world *world, int frame)
     *way_q32 = end_q32 - state.position.c[0];
     *way_q32 = *way_q32 > most_q32 ? most_q32 : *way_q32 < -most_q32 ? -most_q32 : *way_q32;
     mesh = mesh_of(world, WALKER_PLATFORM, &state);
-    if (*way_q32 / 4096 != 0 && carom_cast_mesh(world, &mesh, &go, &only_walker, &hit) != 0) {
+    if (*way_q32 / 4096 != 0 &&
+        carom_cast_mesh(world, &mesh, &go, &only_walker, &workspace, &hit) != 0) {
         *way_q32 = 0;
     }
     state.velocity.c[0] = *way_q32 * 256;
@@ -164,7 +166,7 @@ static int lead_door(struct carom_world *world)
         go.way.c[k] = pose.position.c[k] - state.position.c[k];
     }
     mesh = mesh_of(world, WALKER_DOOR, &state);
-    if (carom_cast_mesh(world, &mesh, &go, &only_walker, &hit) != 0) {
+    if (carom_cast_mesh(world, &mesh, &go, &only_walker, &workspace, &hit) != 0) {
         return CAROM_OK;
     }
     return carom_body_move_to(world, WALKER_DOOR, &pose);
@@ -182,7 +184,7 @@ struct walk {
 static int sweep(struct walk *walk, const carom_v3_q32 *way)
 {
     const struct carom_mesh_way go = {.way = *way};
-    int met = carom_cast_mesh(walk->world, &walk->mesh, &go, &others, &walk->hit);
+    int met = carom_cast_mesh(walk->world, &walk->mesh, &go, &others, &workspace, &walk->hit);
 
     for (int k = 0; k < 3 && met == 0; k++) {
         walk->mesh.position.c[k] += way->c[k];
@@ -261,7 +263,7 @@ static int stands(struct walk *walk, carom_v3_q32 *way)
 {
     const struct carom_mesh_way down = {.way = POSITION(0, 0, -FEEL_MM)};
     carom_v3_q40 velocity;
-    int met = carom_cast_mesh(walk->world, &walk->mesh, &down, &others, &walk->hit);
+    int met = carom_cast_mesh(walk->world, &walk->mesh, &down, &others, &workspace, &walk->hit);
 
     if (met != 1 || is_steep(walk)) {
         return met < 0 ? met : 0;
@@ -303,7 +305,8 @@ static int64_t turn(struct walk *walk, uint32_t keys)
     const int side = !!(keys & PORT_PAD_LEFT) - !!(keys & PORT_PAD_RIGHT);
     const struct carom_mesh_way go = {.turn = {{0, 0, side * TURN_Q30}}};
 
-    if (side == 0 || carom_cast_mesh(walk->world, &walk->mesh, &go, &others, &walk->hit) != 0) {
+    if (side == 0 ||
+        carom_cast_mesh(walk->world, &walk->mesh, &go, &others, &workspace, &walk->hit) != 0) {
         return 0;
     }
     return side * CAROM_SPIN_DEG_S(TURN_DEG_S, FPS);

@@ -138,17 +138,30 @@ struct carom_mesh_hit {
     carom_v3_q30 normal;     /**< unit normal, from the body into the mesh */
 };
 
+/** Bytes of a #carom_cast_workspace. */
+#define CAROM_CAST_BYTES CAROM_BYTES_(3080, 3168)
+
+/**
+ * Room for carom_cast_mesh(), so that it takes less stack than a step.
+ *
+ * Its content means nothing before and after a call: one serves all calls that do not run at the same time.
+ */
+struct carom_cast_workspace {
+    uint64_t words[CAROM_CAST_BYTES / 8]; /**< the call's own */
+};
+
 /**
  * Find the first body that a mesh meets on its way, by the collision test of a step, with all bodies where they are.
  *
  * The mesh stops an event gap short of the body: half a skin, 2^-12 of the larger radius of those that move. It stops
  * at 0 if it is nearer than that and comes nearer. A body that it moves away from, or along, does not stop it.
  *
- * @param world     the world; its state does not change
- * @param mesh      the mesh, where it begins
- * @param way       its motion
- * @param filter    which bodies; may be NULL
- * @param[out] hit  written if there is one
+ * @param world      the world; its state does not change
+ * @param mesh       the mesh, where it begins
+ * @param way        its motion
+ * @param filter     which bodies; may be NULL
+ * @param workspace  room to work in
+ * @param[out] hit   written if there is one
  * @return 1 or 0; CAROM_ERR_OVERLAP if carom_overlap_mesh() finds a body where the mesh begins; CAROM_ERR_RANGE for a
  *         `way` or `turn` out of range; errors for the mesh as carom_overlap_mesh()
  *
@@ -156,7 +169,7 @@ struct carom_mesh_hit {
  */
 int carom_cast_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,
                     const struct carom_mesh_way *way, const struct carom_query_filter *filter,
-                    struct carom_mesh_hit *hit);
+                    struct carom_cast_workspace *workspace, struct carom_mesh_hit *hit);
 
 /** The closest points of two bodies. */
 struct carom_closest {

@@ -12,6 +12,7 @@
 #define STRIPS 72
 
 static struct shape shape[3];
+static struct carom_cast_workspace workspace;
 
 static struct carom_query_mesh put(const struct carom_mesh *mesh, int64_t x, int64_t y, int64_t z)
 {
@@ -29,7 +30,7 @@ static double goes_down(struct carom_world *world, int quantum_bits, const int h
     shape_box(&shape[0], quantum_bits, 2 * half[0], 2 * half[1], 2 * half[2]);
     mesh = put(&shape[0].mesh, real_round(to[0] * real_power2(32)),
                real_round(to[1] * real_power2(32)), real_round(to[2] * real_power2(32)));
-    if (carom_cast_mesh(world, &mesh, &down, NULL, hit) != 1) {
+    if (carom_cast_mesh(world, &mesh, &down, NULL, &workspace, hit) != 1) {
         return 2;
     }
     /* where it stops it is half a skin above what it hits */
@@ -103,7 +104,7 @@ static void test_many_axes(void)
     CHECK_EQ(asked_add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
     /* the base is a quarter of the height, 1/2 unit, below the centre of mass */
     mesh = put(&cone, 0, UNIT / 8, UNIT + UNIT / 8);
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 1);
     CHECK_NEAR(hit.t_q30, CAROM_ONE_Q30 / 2, CAROM_ONE_Q30 >> 10);
     CHECK_NEAR(hit.position.c[2], UNIT / 8, UNIT >> 10);
 }
@@ -139,7 +140,7 @@ static void test_many_lists(void)
     CHECK_EQ(asked_add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
     skin_q32 = (int64_t)(shape[0].mesh.radius_q22 >> 11) << 10;
     mesh = put(&shape[0].mesh, -UNIT / 8, 0, UNIT / 2 + 2 * skin_q32);
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 0);
 }
 
 /* A plane that the caller has moved up by an eighth: a box comes down on it there, though its own z-lists have it where it was. */

@@ -6,6 +6,7 @@
 #include "lib/asked.h"
 
 static struct shape box, tiny, large;
+static struct carom_cast_workspace workspace;
 
 /* The box of test_shared's worlds; a mesh in the middle, upright. */
 static struct carom_query_mesh put(const struct carom_mesh *mesh)
@@ -17,7 +18,7 @@ static void test_null(void)
 {
     const struct carom_ray ray = {{{0, 0, 0}}, {{UNIT, 0, 0}}};
     const struct carom_mesh_way way = {{{UNIT, 0, 0}}, {{0, 0, 0}}};
-    const struct carom_query_mesh nothing = put(NULL);
+    const struct carom_query_mesh nothing = put(NULL), solid = put(&box.mesh);
     struct carom_world *world = asked_world(0);
     struct carom_mesh_hit swept;
     uint16_t bodies[1];
@@ -25,8 +26,9 @@ static void test_null(void)
     CHECK_EQ(carom_cast_ray_all(NULL, &ray, NULL, NULL, 0), CAROM_ERR_NULL);
     CHECK_EQ(carom_cast_ray_all(world, NULL, NULL, NULL, 0), CAROM_ERR_NULL);
     CHECK_EQ(carom_overlap_mesh(world, &nothing, NULL, bodies, 1), CAROM_ERR_NULL);
-    CHECK_EQ(carom_cast_mesh(world, NULL, &way, NULL, &swept), CAROM_ERR_NULL);
-    CHECK_EQ(carom_cast_mesh(world, &nothing, &way, NULL, &swept), CAROM_ERR_NULL);
+    CHECK_EQ(carom_cast_mesh(world, NULL, &way, NULL, &workspace, &swept), CAROM_ERR_NULL);
+    CHECK_EQ(carom_cast_mesh(world, &solid, &way, NULL, NULL, &swept), CAROM_ERR_NULL);
+    CHECK_EQ(carom_cast_mesh(world, &nothing, &way, NULL, &workspace, &swept), CAROM_ERR_NULL);
 }
 
 /* A mesh that no moving body may have, and ways that are too long or turn too far. */
@@ -44,22 +46,22 @@ static void test_range(void)
     shape_box(&large, 8, 16384, 256, 256); /* a radius above 32 */
     mesh = put(&tiny.mesh);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 1), CAROM_ERR_RANGE);
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_RANGE);
     mesh = put(&large.mesh);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 1), CAROM_ERR_RANGE);
     mesh = put(&box.mesh);
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 0);
     way.turn.c[0] = quarter + 1;
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_RANGE);
     way.turn.c[0] = way.turn.c[1] = quarter / 4 * 3; /* each is short, both are not */
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_RANGE);
     way.turn.c[0] = way.turn.c[1] = 0;
     way.way.c[2] = 4097 * UNIT;
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_RANGE);
     way.way.c[2] = 513 * UNIT; /* its radius is 1.15 */
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 0);
     way.way.c[2] = 600 * UNIT;
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_RANGE);
 }
 
 /* A ray into two boxes that lie in one place meets the same face of both at the same time. */
@@ -99,7 +101,7 @@ static void test_shared_sweep(void)
         CHECK_EQ(asked_add(world, &box.mesh, true, -side * (UNIT / 2 + UNIT / 4), 0, 0, upright),
                  1);
         mesh.position.c[2] = 3 * UNIT;
-        CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+        CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 1);
         CHECK_EQ(hit.body, 0);
         CHECK_NEAR(hit.t_q30, CAROM_ONE_Q30 / 2, CAROM_ONE_Q30 >> 10);
     }

@@ -16,6 +16,7 @@ enum { RAYS = 200, KINDS = 3, SWEEPS = 60 };
 static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_CAPS)];
 static struct scene scene;
 static struct shape box;
+static struct carom_cast_workspace workspace;
 
 static const struct {
     const char *name;
@@ -110,7 +111,7 @@ static void test_swept(void)
                     (1 << 24);
             }
             start = port_ticks();
-            met += carom_cast_mesh(world, &mesh, &way, NULL, &hit) > 0;
+            met += carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit) > 0;
             cost = port_instructions(port_ticks() - start);
             sum += cost;
             most = cost > most ? cost : most;

@@ -20,6 +20,7 @@
 #define EVERY 8192
 
 static struct shape shape[4];
+static struct carom_cast_workspace workspace;
 
 static struct carom_query_mesh put(const struct carom_mesh *mesh, int64_t x, int64_t y, int64_t z)
 {
@@ -99,9 +100,9 @@ static void test_far(void)
             const int here = n == 343 / 2;
 
             way.turn.c[2] = 0;
-            CHECK_EQ(carom_cast_mesh(world, &asked, &way, NULL, &hit), here);
+            CHECK_EQ(carom_cast_mesh(world, &asked, &way, NULL, &workspace, &hit), here);
             way.turn.c[2] = CAROM_ONE_Q30 / 8;
-            CHECK_EQ(carom_cast_mesh(world, &asked, &way, NULL, &hit), here);
+            CHECK_EQ(carom_cast_mesh(world, &asked, &way, NULL, &workspace, &hit), here);
             asked.position.c[0] = 0;
             CHECK_EQ(carom_overlap_mesh(world, &asked, NULL, &body, 1), here);
         }
@@ -124,7 +125,7 @@ static void test_by_hand(void)
     CHECK_EQ(asked_add(world, &shape[0].mesh, true, 0, 0, UNIT, upright), 1);
     mesh = put(&shape[1].mesh, 2 * UNIT, UNIT / 32, 6 * UNIT);
     gap = (int64_t)(shape[1].mesh.radius_q22 >> 11) << 9; /* half a skin */
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 1);
     CHECK_EQ(hit.body, 0);
     CHECK_MORE(hit.normal.c[2], CAROM_ONE_Q30 - 1000);
     CHECK_NEAR(hit.position.c[2], UNIT / 16 + gap, gap / 2);
@@ -134,36 +135,36 @@ static void test_by_hand(void)
     /* sideways */
     mesh.position.c[2] = UNIT;
     way.way = (carom_v3_q32){{-4 * UNIT, 0, 0}};
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 1);
     CHECK_EQ(hit.body, 1);
     CHECK_MORE(hit.normal.c[0], CAROM_ONE_Q30 - 1000);
     CHECK_MORE(shape[0].mesh.faces[hit.face].normal.c[0], CAROM_ONE_Q30 - 1000);
     CHECK_NEAR(hit.position.c[0], 3 * UNIT / 4, UNIT >> 10);
     CHECK_NEAR(hit.point.c[0], UNIT / 2, UNIT >> 10);
     mesh.position = hit.position; /* from there it may leave and slide, but not go on */
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 1);
     CHECK_LESS(hit.t_q30, CAROM_ONE_Q30 >> 12);
     way.way = (carom_v3_q32){{UNIT, 0, 0}};
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 0);
     way.way = (carom_v3_q32){{0, 2 * UNIT, 0}};
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 0);
     /* a turn about z alone brings the long side round to the box */
     mesh.rotation = (carom_quat_q30){{759250125, 0, 0, 759250125}};
     mesh.position = (carom_v3_q32){{UNIT / 2 + UNIT / 7, UNIT / 50, UNIT}};
     way = (struct carom_mesh_way){{{0, 0, 0}}, {{0, 0, CAROM_ONE_Q30 / 4}}};
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 1);
     CHECK_EQ(hit.body, 1);
     CHECK_MORE(hit.t_q30, 0);
     CHECK_MORE(hit.rotation.c[3], mesh.rotation.c[3]);
     mesh.position.c[0] = UNIT / 2;
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_OVERLAP);
-    CHECK_EQ(carom_cast_mesh(NULL, &mesh, &way, NULL, &hit), CAROM_ERR_NULL);
-    CHECK_EQ(carom_cast_mesh(world, &mesh, NULL, NULL, &hit), CAROM_ERR_NULL);
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_OVERLAP);
+    CHECK_EQ(carom_cast_mesh(NULL, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_NULL);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, NULL, NULL, &workspace, &hit), CAROM_ERR_NULL);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, NULL), CAROM_ERR_NULL);
     way.turn.c[0] = 1 << 20;
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_RANGE);
     way = (struct carom_mesh_way){{{600 * UNIT, 0, 0}}, {{0, 0, 0}}};
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_RANGE);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), CAROM_ERR_RANGE);
 }
 
 /* A box on the way to a box, and a later body behind that one, turned by an eighth: all of the answer is about the first one. */
@@ -180,7 +181,7 @@ static void test_before_later(void)
     CHECK_EQ(asked_add(world, &shape[0].mesh, true, 0, 0, 0, upright), 0);
     CHECK_EQ(asked_add(world, &shape[0].mesh, true, -2 * UNIT, 0, 0, eighth), 1);
     mesh = put(&shape[1].mesh, 2 * UNIT, UNIT / 32, 0);
-    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
+    CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit), 1);
     CHECK_EQ(hit.body, 0);
     CHECK_MORE(hit.normal.c[0], CAROM_ONE_Q30 - 1000);
     CHECK_MORE(shape[0].mesh.faces[hit.face].normal.c[0], CAROM_ONE_Q30 - 1000);
@@ -217,7 +218,8 @@ static void test_too_large(void)
         mesh = put(&shape[0].mesh, to[0] * (UNIT >> 7) + UNIT / 4, to[1] * (UNIT >> 7),
                    to[2] * (UNIT >> 7) + 2 * UNIT);
         hit.t_q30 = -1;
-        CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), off ? CAROM_ERR_RANGE : 1);
+        CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit),
+                 off ? CAROM_ERR_RANGE : 1);
         if (off) {
             CHECK_EQ(hit.t_q30, -1);
         } else { /* it comes down by 3/2 of 3 */
@@ -296,7 +298,7 @@ static void test_random_ways(void)
 
         random_scene(world, &r, &mesh, &way);
         hash = carom_world_hash(world);
-        found = carom_cast_mesh(world, &mesh, &way, NULL, &hit);
+        found = carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit);
         CHECK_EQ(carom_world_hash(world), hash);
         if (found == CAROM_ERR_OVERLAP) {
             CHECK_MORE(carom_overlap_mesh(world, &mesh, NULL, bodies, 6), 0);
@@ -436,7 +438,7 @@ static void test_every_feature(void)
             way.way.c[k] = test_random_range(&r, -UNIT, UNIT) - (k == 2 ? 5 * UNIT / 2 : 0);
             way.turn.c[k] = n % 5 == 0 ? (int32_t)test_random_range(&r, -(1 << 27), 1 << 27) : 0;
         }
-        found = carom_cast_mesh(world, &mesh, &way, NULL, &hit);
+        found = carom_cast_mesh(world, &mesh, &way, NULL, &workspace, &hit);
         if (found == CAROM_ERR_OVERLAP) {
             continue;
         }
@@ -486,7 +488,7 @@ static void test_no_change(void)
         }
         mesh.position.c[2] += 3 * UNIT;
         way.way.c[2] -= 2 * UNIT;
-        met += carom_cast_mesh(world[0], &mesh, &way, NULL, &hit) > 0;
+        met += carom_cast_mesh(world[0], &mesh, &way, NULL, &workspace, &hit) > 0;
         met += carom_overlap_mesh(world[0], &mesh, NULL, bodies, 4) > 0;
         CHECK_EQ(carom_world_hash(world[0]), hash);
         CHECK_EQ(carom_usage(world[0], usage[0]), CAROM_OK);

@@ -293,6 +293,7 @@ static void check_queries(void)
     struct carom_mesh_hit swept[2];
     struct carom_closest closest[2];
     uint16_t in[2][BODIES];
+    static struct carom_cast_workspace workspace; /* with other content for each world */
     int got[4][2];
 
     memset(hit, 0, sizeof hit);
@@ -302,7 +303,8 @@ static void check_queries(void)
         struct carom_world *w = world[which];
 
         got[0][which] = carom_cast_ray(w, &ray, &filter, &hit[which]);
-        got[1][which] = carom_cast_mesh(w, &cube, &way, &filter, &swept[which]);
+        memset(&workspace, which * 0xa5, sizeof workspace);
+        got[1][which] = carom_cast_mesh(w, &cube, &way, &filter, &workspace, &swept[which]);
         got[2][which] = carom_overlap_mesh(w, &cube, &filter, in[which], BODIES);
         got[3][which] =
             carom_closest_points(w, part(which, FIRST), part(which, LAST), &closest[which]);

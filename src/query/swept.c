@@ -2,8 +2,8 @@
 /*
  * The first hit of a mesh on a way, by the candidates and the collision test of a step, in parts of
  * the way of half a radius each. The bodies of the world are copied as far as the test needs them,
- * and candidates go to the stack: so nothing that a step keeps is touched, except the made z-lists
- * of a moving surface.
+ * and candidates go to the caller's workspace: so nothing that a step keeps is touched, except the
+ * made z-lists of a moving surface, and a call takes less stack than a step.
  */
 #include "query.h"
 #include "ahead.h"
@@ -17,6 +17,7 @@
 #define WAY_RADII    512
 #define TURN_MAX_Q30 (CAROM_ONE_Q30 / 4)
 
+/* A call: all of it is in the caller's workspace. */
 struct swept {
     struct candidate_visitor base;
     struct carom_world *w;
@@ -34,7 +35,20 @@ struct swept {
     uint16_t body;
     struct boyse_hit hit;
     int32_t hit_from_q30;
+
+    /* a part is asked by the faces ahead, or gathered */
+    union {
+        struct ahead ahead;
+        struct {
+            struct interfere work;
+            struct candidate candidates[CANDIDATES];
+        };
+    };
 };
+
+_Static_assert(sizeof(struct swept) <= sizeof(struct carom_cast_workspace), "CAROM_CAST_BYTES");
+_Static_assert(_Alignof(struct swept) <= _Alignof(struct carom_cast_workspace),
+               "carom_cast_workspace");
 
 /* ---------------------------------------------------------------------- ways */
 
@@ -168,15 +182,13 @@ static bool is_behind(const struct swept *s, int32_t from_q30)
 }
 
 /* Test the part at hand against the body: gather all candidates near it. */
-FIX_OWN_FRAME static int ask_part(struct swept *s)
+static int ask_part(struct swept *s)
 {
     static const struct pair pair = {0, 1};
     const struct interfere_pairs all = {s->bodies, &pair, 1};
     const struct interfere_span span = {0, 0, CAROM_ONE_Q30, UINT32_MAX, false};
-    struct candidate candidates[CANDIDATES];
     struct pool pool = {CANDIDATES, 0, 0, 0};
     struct pair_work meeting = {0};
-    struct interfere work = s->w->interfere;
     struct body_state start = s->state;
     int result;
 
@@ -188,11 +200,12 @@ FIX_OWN_FRAME static int ask_part(struct swept *s)
     body_region_begin(&s->bodies[0], &start, CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
     body_region_begin(&s->bodies[1], &world_now(s->w)->bodies[s->number], CAROM_ONE_Q30,
                       CAROM_ONE_Q30, 0);
-    work.candidates = candidates;
-    work.candidate_pool = &pool;
-    work.meetings = &meeting;
-    result = interfere_visit_pair(&work, &all, 0, &span, false, &s->base);
-    interfere_take_lists(&s->w->interfere, &work);
+    s->work = s->w->interfere;
+    s->work.candidates = s->candidates;
+    s->work.candidate_pool = &pool;
+    s->work.meetings = &meeting;
+    result = interfere_visit_pair(&s->work, &all, 0, &span, false, &s->base);
+    interfere_take_lists(&s->w->interfere, &s->work);
     return result;
 }
 
@@ -210,8 +223,9 @@ static int32_t end_of_part(const struct swept *s)
 }
 
 /* Test the windows of a stretch, up to its first hit. */
-static void ask_windows(struct swept *s, struct ahead *h, int32_t from_q30, int32_t to_q30)
+static void ask_windows(struct swept *s, int32_t from_q30, int32_t to_q30)
 {
+    struct ahead *h = &s->ahead;
     int32_t window = WINDOW;
 
     for (int32_t at = 0, to; (at = ahead_first(h, at)) < h->end; at = to) {
@@ -229,8 +243,9 @@ static void ask_windows(struct swept *s, struct ahead *h, int32_t from_q30, int3
 /*
  * Test the part at hand against the body by the faces ahead, list by list. Returns false if those are too many.
  */
-static bool ask_ahead(struct swept *s, struct ahead *h)
+static bool ask_ahead(struct swept *s)
 {
+    struct ahead *h = &s->ahead;
     int32_t from = s->from_q30;
 
     for (int lists = 0; lists < LISTS; lists++) {
@@ -242,7 +257,7 @@ static bool ask_ahead(struct swept *s, struct ahead *h)
         if (!ahead_list(h)) {
             return false;
         }
-        ask_windows(s, h, from, to);
+        ask_windows(s, from, to);
         if (h->end == AHEAD_WHOLE) {
             return true;
         }
@@ -253,20 +268,18 @@ static bool ask_ahead(struct swept *s, struct ahead *h)
 
 /*
  * Test parts of a straight way by the faces ahead, up to one that must be gathered. Returns its
- * start, or the end of what matters of the way. A gather goes as deep, so it runs when this is over.
+ * start, or the end of what matters of the way.
  */
-FIX_OWN_FRAME static int32_t ask_straight(struct swept *s, int32_t from_q30)
+static int32_t ask_straight(struct swept *s, int32_t from_q30)
 {
-    struct ahead ahead;
-
     body_place(&s->bodies[0], &s->state);
-    if (!ahead_begin(&ahead, &s->w->interfere, &s->bodies[0], &s->bodies[1], &s->way->way,
+    if (!ahead_begin(&s->ahead, &s->w->interfere, &s->bodies[0], &s->bodies[1], &s->way->way,
                      s->length_q30)) {
         return from_q30;
     }
     for (; from_q30 < CAROM_ONE_Q30 && !is_behind(s, from_q30); from_q30 = s->to_q30) {
         begin_part(s, from_q30);
-        if (!ask_ahead(s, &ahead)) {
+        if (!ask_ahead(s)) {
             break;
         }
     }
@@ -412,30 +425,30 @@ static int ask_bodies(struct swept *s, const struct carom_query_filter *filter)
 
 int carom_cast_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,
                     const struct carom_mesh_way *way, const struct carom_query_filter *filter,
-                    struct carom_mesh_hit *hit)
+                    struct carom_cast_workspace *workspace, struct carom_mesh_hit *hit)
 {
-    struct swept s;
+    struct swept *s = (struct swept *)workspace;
     int result;
 
-    if (!world || !mesh || !mesh->mesh || !way || !hit) {
+    if (!world || !mesh || !mesh->mesh || !way || !workspace || !hit) {
         return CAROM_ERR_NULL;
     }
-    s.base.visit = visit_swept;
-    s.w = world;
-    s.way = way;
-    s.found = false;
-    result = query_put(mesh, &s.bodies[0], &s.state);
-    result = result < 0 ? result : check_way(&s);
+    s->base.visit = visit_swept;
+    s->w = world;
+    s->way = way;
+    s->found = false;
+    result = query_put(mesh, &s->bodies[0], &s->state);
+    result = result < 0 ? result : check_way(s);
     if (result < 0) {
         return result;
     }
-    if (begins_in_overlap(&s, filter)) {
+    if (begins_in_overlap(s, filter)) {
         return CAROM_ERR_OVERLAP;
     }
     world_begin_gather(world);
-    result = ask_bodies(&s, filter);
-    if (result == CAROM_OK && s.found) {
-        complete(&s, hit);
+    result = ask_bodies(s, filter);
+    if (result == CAROM_OK && s->found) {
+        complete(s, hit);
         result = 1;
     }
     return result;

@@ -6,6 +6,8 @@
 
 /* ------------------------------------------------------------------------ questions */
 
+static struct carom_cast_workspace workspace;
+
 static bool wants(void *context, int body)
 {
     (void)context;
@@ -50,7 +52,7 @@ static int ask_mesh(struct fuzz *f, const struct carom_query_filter *filter)
         way.turn.c[k] = (int32_t)(uint32_t)turn[k];
     }
     return fuzz_pick(f, 2)
-               ? carom_cast_mesh(f->world, &mesh, &way, filter, &hit)
+               ? carom_cast_mesh(f->world, &mesh, &way, filter, &workspace, &hit)
                : carom_overlap_mesh(f->world, &mesh, filter, bodies, (uint32_t)fuzz_pick(f, 5));
 }
 

@@ -227,6 +227,8 @@ static int ask_ray(const struct carom_world *world, const carom_v3_q32 *at, uint
     return met < 0 ? met : CAROM_OK;
 }
 
+static struct carom_cast_workspace workspace;
+
 /* Sweep a body's mesh down while it turns, and ask for the hit and for overlaps at the start. */
 static int ask_way(struct carom_world *world, int body, const struct carom_body_state *state,
                    uint64_t *digest)
@@ -237,7 +239,7 @@ static int ask_way(struct carom_world *world, int body, const struct carom_body_
     struct carom_query_mesh mesh = {carom_body_mesh(world, body), state->position, state->rotation};
     struct carom_mesh_hit hit;
     uint16_t bodies[2];
-    int met = carom_cast_mesh(world, &mesh, &go, &others, &hit);
+    int met = carom_cast_mesh(world, &mesh, &go, &others, &workspace, &hit);
 
     if (met == 1) {
         *digest =

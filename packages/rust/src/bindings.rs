@@ -864,12 +864,18 @@ pub struct carom_mesh_hit {
     pub point: carom_v3_q32,
     pub normal: carom_v3_q30,
 }
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct carom_cast_workspace {
+    pub words: [u64; 396usize],
+}
 extern "C" {
     pub fn carom_cast_mesh(
         world: *mut carom_world,
         mesh: *const carom_query_mesh,
         way: *const carom_mesh_way,
         filter: *const carom_query_filter,
+        workspace: *mut carom_cast_workspace,
         hit: *mut carom_mesh_hit,
     ) -> c::c_int;
 }

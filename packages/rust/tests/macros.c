@@ -85,6 +85,7 @@ int main(void)
     SAY_SIZE(struct carom_joint_state);
     SAY_SIZE(struct carom_ray_hit);
     SAY_SIZE(struct carom_mesh_hit);
+    SAY_SIZE(struct carom_cast_workspace);
     SAY_SIZE(struct carom_closest);
     SAY_SIZE(struct carom_material);
     SAY_SIZE(struct carom_forces);

@@ -81,7 +81,7 @@ fn const_functions_are_the_macros_of_c() {
     }
     say_size!(carom_mesh carom_config carom_body_def carom_body_state carom_event carom_contact carom_touch
               carom_stats carom_usage carom_joint_def carom_joint_state carom_ray_hit carom_mesh_hit
-              carom_closest carom_material carom_forces carom_picture carom_debug);
+              carom_cast_workspace carom_closest carom_material carom_forces carom_picture carom_debug);
     let said = said_by_c();
     assert!(said.lines().count() > 1000);
     for (number, (c, rust)) in said.lines().zip(out.lines()).enumerate() {
