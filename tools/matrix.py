@@ -157,9 +157,10 @@ class Build:
         text = call([*self.runner, self.elf, *options], "run")
         return [line.split() for line in text.splitlines()]
 
-    def play(self, *options):
-        """Play scenes; returns the result of each, and the snapshots."""
-        for words in self.run(*options, "save=1"):
+    def play(self, scenes, *options):
+        """Play scenes, or all if none is named; keeps the result of each, and the snapshots."""
+        runs = [["scene=" + scene] for scene in scenes] or [[]]
+        for words in [words for which in runs for words in self.run(*options, *which, "save=1")]:
             if words[0] == "scene":
                 self.scenes[words[1]] = words[2:]
             elif words[0] == "snapshot":
@@ -350,13 +351,13 @@ def attempt(action, build, *arguments):
     return None
 
 
-def do(build, number, play):
+def do(build, number, scenes, play):
     """Make and run a build; memory first holds zeros or other bytes, in turn."""
     start = time.monotonic()
 
     def all_of_it():
         build.make()
-        build.play(*play, "fill=%d" % (165 * (number % 2)))
+        build.play(scenes, *play, "fill=%d" % (165 * (number % 2)))
 
     wrong = attempt(all_of_it, build)
     print("  %-58s %4d s%s" % (build, time.monotonic() - start,
@@ -364,13 +365,13 @@ def do(build, number, play):
     return wrong
 
 
-def do_all(builds, play, jobs):
+def do_all(builds, scenes, play, jobs):
     """Make and run all builds; returns the faults, a line each."""
     failures = []
     targets = {build.target: build for build in builds if not isinstance(build, Board)}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         failures += pool.map(lambda build: attempt(make_meshes, build, build), targets.values())
-        failures += pool.map(lambda item: do(item[1], item[0], play), enumerate(builds))
+        failures += pool.map(lambda item: do(item[1], item[0], scenes, play), enumerate(builds))
     done = [build for build in builds if build.scenes]
     kept = {build.target: build for build in reversed(done)}
     for build in done:
@@ -499,19 +500,19 @@ def main():
     parser.add_argument("--targets", help="only these, with commas")
     parser.add_argument("--compilers", help="only these, with commas")
     parser.add_argument("--options", help="only builds with these")
-    parser.add_argument("--scene", help="only this one")
+    parser.add_argument("--scenes", help="only these, with commas")
     parser.add_argument("--engine", metavar="TARGET=FOLDER", action="append", default=[],
                         help="for a target, the engine in another folder")
     arguments = parser.parse_args()
     builds = chosen(arguments)
     gate.need(*sorted({thing for build in builds for thing in build.need}))
-    play = ["frames=%d" % (arguments.frames or FRAMES[arguments.short]), "at=%d" % AT] + \
-        (["scene=" + arguments.scene] if arguments.scene else [])
-    failures, done, kept = do_all(builds, play, arguments.jobs)
+    scenes = arguments.scenes.split(",") if arguments.scenes else []
+    play = ["frames=%d" % (arguments.frames or FRAMES[arguments.short]), "at=%d" % AT]
+    failures, done, kept = do_all(builds, scenes, play, arguments.jobs)
     wrong, crossings = cross_all(kept, arguments.jobs)
     failures += wrong
     report(done, failures, crossings)
-    if len(builds) == len(list(every_build(arguments.short))) and not arguments.scene:
+    if len(builds) == len(list(every_build(arguments.short))) and not scenes:
         write_csv(done)
         if not arguments.short and not failures:
             marked.write(DOCS, "matrix", docs_lines(done, crossings))
