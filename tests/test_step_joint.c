@@ -385,6 +385,39 @@ static void test_first_moment(void)
 }
 
 /*
+ * A, which hangs on the world, holds a kinematic body back in every frame. C is on a spring to that body, at its rest: no pull comes
+ * from the way that the body was to take.
+ */
+static void test_held_back(void)
+{
+    struct carom_joint_def j;
+
+    begin(0, 8 * UNIT, 0);
+    CHECK_EQ(add(0, 0, 0), A);
+    def.kinematic = true;
+    def.velocity.c[2] = ONE / 16;
+    CHECK_EQ(add(0, UNIT, 0), B);
+    def.kinematic = false;
+    def.velocity.c[2] = 0;
+    CHECK_EQ(add(0, 2 * UNIT, 0), C);
+    j = joint(CAROM_JOINT_FIXED, A, CAROM_WORLD, 0, 0, 0);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    j = joint(CAROM_JOINT_BALL, A, B, 0, UNIT / 2, 0);
+    CHECK_EQ(carom_joint_add(world, &j), 1);
+    j = joint(CAROM_JOINT_SLIDER, C, B, 0, UNIT * 3 / 2, 0);
+    j.drive.spring = true;
+    j.drive.stiffness_q40 = ONE / 8;
+    CHECK_EQ(carom_joint_add(world, &j), 2);
+    for (int frame = 0; frame < 20; frame++) {
+        steps(1);
+        CHECK_EQ(events_of(CAROM_EVENT_BLOCKED, B, A), 1);
+        CHECK_EQ(state_of(B).position.c[2], 0);
+        CHECK_EQ(state_of(C).position.c[2], 0);
+        CHECK_EQ(state_of(C).velocity.c[2], 0);
+    }
+}
+
+/*
  * The factors of two joints' rows fill their room to the last entry: each joint holds six rows, and each row has an entry for every
  * row up to itself. What comes next in the memory stays, and the chain moves as with room to spare.
  */
@@ -428,6 +461,7 @@ const struct test tests_step_joint[] = {
     {"step_joint/goes_along", test_goes_along},
     {"step_joint/room", test_room},
     {"step_joint/first_moment", test_first_moment},
+    {"step_joint/held_back", test_held_back},
     {"step_joint/near_limits", test_near_limits},
     {"step_joint/pressed", test_pressed},
     {"step_joint/pulled_to_a_wall", test_pulled_to_a_wall},

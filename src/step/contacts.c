@@ -427,6 +427,10 @@ int step_solve(struct step *s, bool warm)
     if (!held) { /* a failure ends the rounds before that */
         (void)w->joint_steps->measure(s, s->now_q30 > 0 ? JOINT_HIT_MORE : JOINT_MORE);
         if (w->joint_steps->yield(s)) {
+            if (warm) {
+                s->anew = true; /* see start */
+                return CAROM_OK;
+            }
             result = solve_rounds(s, false, false, &held);
         }
     }

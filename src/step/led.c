@@ -16,8 +16,9 @@ static bool ends_in_range(const struct body_state *s, const struct body_route *r
     return world_position_in_range(&end);
 }
 
-static void begin_route(struct carom_world *w, uint32_t i)
+static void begin_route(struct step *s, uint32_t i)
 {
+    struct carom_world *w = s->w;
     const struct body_state *state = &world_now(w)->bodies[i];
     struct body *b = &w->bodies[i];
     struct body_extra *extra = b->def.extra;
@@ -27,21 +28,23 @@ static void begin_route(struct carom_world *w, uint32_t i)
     } else {
         body_route_on(b, state, &extra->drive.velocity, &extra->drive.spin, &extra->route);
     }
-    if (!ends_in_range(state, &extra->route)) {
+    extra->blocked = extra->blocked && s->anew;
+    if (extra->blocked || !ends_in_range(state, &extra->route)) {
         extra->route = still;
     }
-    extra->blocked = false;
+    b->clock.stands = extra->blocked;
     b->clock.to_q30 = CAROM_ONE_Q30 >> extra->route.slice_bits;
     b->clock.placed = true;
 }
 
-bool step_begin_routes(struct carom_world *w)
+bool step_begin_routes(struct step *s)
 {
+    struct carom_world *w = s->w;
     bool any = false;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (body_travels(&w->bodies[i])) {
-            begin_route(w, i);
+            begin_route(s, i);
             any = true;
         }
     }

@@ -45,7 +45,8 @@ struct step {
     uint32_t active; /* number of bodies that are awake */
     bool rare;       /* true if there are extras, joints or passing pairs; most worlds have none */
     bool led;        /* true if a kinematic body moves */
-    bool single;     /* true if regions last no longer than the frame */
+    bool anew;   /* the frame begins again: kinematic bodies that its first solve stopped stand */
+    bool single; /* true if regions last no longer than the frame */
     bool pairs_changed; /* true if the list of interfering faces must be made again */
     bool broke;         /* true if a joint broke */
     bool cut_short;     /* true if an island stands still for a part of the frame */
@@ -286,7 +287,7 @@ bool step_go_as_one(struct step *s, uint32_t first);
  * The routes of kinematic bodies for the frame, where their clocks begin; and at the end the poses
  * they were led to. step_begin_routes returns true if any body moves.
  */
-bool step_begin_routes(struct carom_world *w);
+bool step_begin_routes(struct step *s);
 void step_end_routes(struct step *s);
 
 /*

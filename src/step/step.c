@@ -75,7 +75,7 @@ FIX_APART static void begin_rare(struct step *s)
     struct carom_world *w = s->w;
 
     if (w->pools[CAROM_POOL_extras].used > 0) {
-        s->led = step_begin_routes(w);
+        s->led = step_begin_routes(s);
     }
     if (w->joint_steps) {
         w->joint_steps->begin(s);
@@ -83,7 +83,21 @@ FIX_APART static void begin_rare(struct step *s)
     step_act(s);
 }
 
-void step_begin(struct step *s, struct carom_world *w)
+/* Keep the events of kinematic bodies that stopped, and no others. Returns how many there are. */
+FIX_APART static uint32_t keep_blocked(struct carom_world *w)
+{
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < w->event_count; i++) {
+        if (w->events[i].kind == CAROM_EVENT_BLOCKED) {
+            w->events[kept++] = w->events[i];
+        }
+    }
+    return kept;
+}
+
+/* Begin a frame; `anew`: once more, after the solve at its start stopped kinematic bodies. */
+static void begin(struct step *s, struct carom_world *w, bool anew)
 {
     const struct world_state *now = world_now(w);
     struct world_state *next = world_next(w);
@@ -91,7 +105,9 @@ void step_begin(struct step *s, struct carom_world *w)
     s->w = w;
     s->next = next;
     s->now_q30 = 0;
-    s->cut_short = s->pairs_changed = s->led = s->broke = s->strained = false;
+    s->anew = anew;
+    s->pairs_changed = anew; /* the first try may have gathered candidates */
+    s->cut_short = s->led = s->broke = s->strained = false;
     s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
     s->rare = w->pools[CAROM_POOL_extras].used > 0 || w->joint_steps || w->passing;
     w->rest.list.plain = is_plain(w);
@@ -110,12 +126,17 @@ void step_begin(struct step *s, struct carom_world *w)
     interfere_begin_frame(&w->interfere);
     memset(&w->stats, 0, sizeof w->stats);
     w->stats.substeps = 1;
-    w->event_count = 0;
+    w->event_count = anew ? keep_blocked(w) : 0;
     pool_clear(&w->pools[CAROM_POOL_contacts]);
     pool_clear(&w->pools[CAROM_POOL_hits]);
     if (s->rare) {
         begin_rare(s);
     }
+}
+
+void step_begin(struct step *s, struct carom_world *w)
+{
+    begin(s, w, false);
 }
 
 /* Set the paths of all bodies at the start of the frame and find the first hits on them. */
@@ -296,21 +317,36 @@ static void step_idle(struct carom_world *w)
     }
 }
 
+/*
+ * Begin the frame, up to the solve at its start. If that solve stops kinematic bodies, the frame
+ * begins anew with these where they are: springs and contacts were measured on their routes.
+ */
+static int start(struct step *s, struct carom_world *w)
+{
+    bool anew = false;
+    int result;
+
+    do {
+        begin(s, w, anew);
+        s->anew = false;
+        result = step_begin_regions(s);
+        if (result == CAROM_OK && s->rare && w->sense_anew) {
+            step_sense_start(s);
+        }
+        result = result == CAROM_OK ? step_start_contacts(s) : result;
+        anew = s->anew;
+    } while (anew);
+    return result;
+}
+
 /* Step one frame. `single`: regions last for this frame only. */
 static int step_frame(struct carom_world *w, bool single, bool *cut_short)
 {
     struct step s;
     int result;
 
-    step_begin(&s, w);
     s.single = single;
-    result = step_begin_regions(&s);
-    if (result == CAROM_OK) {
-        if (s.rare && w->sense_anew) {
-            step_sense_start(&s);
-        }
-        result = step_start_contacts(&s);
-    }
+    result = start(&s, w);
     if (result == CAROM_OK) {
         result = set_out(&s);
     }
