@@ -384,37 +384,81 @@ static void test_first_moment(void)
     }
 }
 
-/*
- * A, which hangs on the world, holds a kinematic body back in every frame. C is on a spring to that body, at its rest: no pull comes
- * from the way that the body was to take.
- */
-static void test_held_back(void)
+enum { HUNG, LED, SPRUNG, FALLING };
+
+/* HUNG hangs on the world and holds LED, a kinematic body, back. SPRUNG slides along z on a spring to LED, at its rest. */
+static void begin_held_back(int64_t speed_q40)
 {
     struct carom_joint_def j;
 
-    begin(0, 8 * UNIT, 0);
-    CHECK_EQ(add(0, 0, 0), A);
+    setup(0);
+    CHECK_EQ(add(0, 0, 0), HUNG);
     def.kinematic = true;
-    def.velocity.c[2] = ONE / 16;
-    CHECK_EQ(add(0, UNIT, 0), B);
+    def.velocity.c[2] = speed_q40;
+    CHECK_EQ(add(0, UNIT, 0), LED);
     def.kinematic = false;
     def.velocity.c[2] = 0;
-    CHECK_EQ(add(0, 2 * UNIT, 0), C);
-    j = joint(CAROM_JOINT_FIXED, A, CAROM_WORLD, 0, 0, 0);
+    CHECK_EQ(add(0, 2 * UNIT, 0), SPRUNG);
+    j = joint(CAROM_JOINT_FIXED, HUNG, CAROM_WORLD, 0, 0, 0);
     CHECK_EQ(carom_joint_add(world, &j), 0);
-    j = joint(CAROM_JOINT_BALL, A, B, 0, UNIT / 2, 0);
+    j = joint(CAROM_JOINT_BALL, HUNG, LED, 0, UNIT / 2, 0);
     CHECK_EQ(carom_joint_add(world, &j), 1);
-    j = joint(CAROM_JOINT_SLIDER, C, B, 0, UNIT * 3 / 2, 0);
+    j = joint(CAROM_JOINT_SLIDER, SPRUNG, LED, 0, UNIT * 3 / 2, 0);
     j.drive.spring = true;
     j.drive.stiffness_q40 = ONE / 8;
     CHECK_EQ(carom_joint_add(world, &j), 2);
+}
+
+/* LED stops in every frame: no pull comes from the way that it was to take. */
+static void test_held_back(void)
+{
+    begin_held_back(ONE / 16);
     for (int frame = 0; frame < 20; frame++) {
         steps(1);
-        CHECK_EQ(events_of(CAROM_EVENT_BLOCKED, B, A), 1);
-        CHECK_EQ(state_of(B).position.c[2], 0);
-        CHECK_EQ(state_of(C).position.c[2], 0);
-        CHECK_EQ(state_of(C).velocity.c[2], 0);
+        CHECK_EQ(events_of(CAROM_EVENT_BLOCKED, LED, HUNG), 1);
+        CHECK_EQ(state_of(LED).position.c[2], 0);
+        CHECK_EQ(state_of(SPRUNG).position.c[2], 0);
+        CHECK_EQ(state_of(SPRUNG).velocity.c[2], 0);
     }
+}
+
+/*
+ * The same, and a box falls on SPRUNG from half a skin above it. The frame begins anew after its first hit, and all but the BLOCKED event is
+ * as in a world whose LED stands: states, the hit, and for 30 frames the number of faces that interfere.
+ */
+static void test_held_back_hit(void)
+{
+    struct carom_body_state state[2][2];
+    const struct carom_event *events;
+    struct carom_event hit[2];
+    uint32_t faces[2][30];
+
+    for (int led = 0; led < 2; led++) {
+        begin_held_back(led * ONE / 16);
+        def.velocity.c[2] = -ONE / 64;
+        CHECK_EQ(add(0, 2 * UNIT, UNIT / 4 + SKIN / 2), FALLING);
+        steps(1);
+        CHECK_EQ(events_of(CAROM_EVENT_BLOCKED, LED, HUNG), led);
+        CHECK_EQ(events_of(CAROM_EVENT_HIT, FALLING, SPRUNG), 1);
+        for (int i = 0; i < 2; i++) {
+            state[led][i] = state_of(i == 0 ? SPRUNG : FALLING);
+        }
+        CHECK_EQ(carom_events(world, &events), led + 2); /* and that the two touch */
+        hit[led] = events[led];
+        for (int frame = 0; frame < 30; frame++) {
+            faces[led][frame] = world->pools[CAROM_POOL_faces].used;
+            steps(1);
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        CHECK_EQ(memcmp(&state[1][i].position, &state[0][i].position, sizeof(carom_v3_q32)), 0);
+        CHECK_EQ(memcmp(&state[1][i].velocity, &state[0][i].velocity, sizeof(carom_v3_q40)), 0);
+        CHECK_EQ(memcmp(&state[1][i].spin, &state[0][i].spin, sizeof(carom_v3_q40)), 0);
+    }
+    CHECK_EQ(hit[1].kind, CAROM_EVENT_HIT);
+    CHECK_EQ(memcmp(&hit[1], &hit[0], sizeof hit[0]), 0);
+    CHECK_MORE(faces[0][0], 0);
+    CHECK_EQ(memcmp(faces[1], faces[0], sizeof faces[0]), 0);
 }
 
 /*
@@ -462,6 +506,7 @@ const struct test tests_step_joint[] = {
     {"step_joint/room", test_room},
     {"step_joint/first_moment", test_first_moment},
     {"step_joint/held_back", test_held_back},
+    {"step_joint/held_back_hit", test_held_back_hit},
     {"step_joint/near_limits", test_near_limits},
     {"step_joint/pressed", test_pressed},
     {"step_joint/pulled_to_a_wall", test_pulled_to_a_wall},

@@ -106,8 +106,7 @@ static void begin(struct step *s, struct carom_world *w, bool anew)
     s->next = next;
     s->now_q30 = 0;
     s->anew = anew;
-    s->pairs_changed = anew; /* the first try may have gathered candidates */
-    s->cut_short = s->led = s->broke = s->strained = false;
+    s->cut_short = s->pairs_changed = s->led = s->broke = s->strained = false;
     s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
     s->rare = w->pools[CAROM_POOL_extras].used > 0 || w->joint_steps || w->passing;
     w->rest.list.plain = is_plain(w);
