@@ -21,13 +21,14 @@ BRANDS = """/* SPDX-License-Identifier: MIT */
 {licence}
  */
 """
-# C++ needs other words for four things of the same text, and some warnings apply to C++ only.
+# C++ needs other words for parts of the text, and some warnings apply to C++ only.
 OPEN = """
 #if defined __cplusplus
 #include <string.h>
 #define restrict       __restrict
 #define _Noreturn      [[noreturn]]
 #define _Static_assert static_assert
+#define _Alignof       alignof
 #endif
 #if defined __clang__
 #pragma clang diagnostic push
@@ -50,6 +51,7 @@ CLOSE = """
 #undef restrict
 #undef _Noreturn
 #undef _Static_assert
+#undef _Alignof
 #endif
 #if defined __clang__
 #pragma clang diagnostic pop

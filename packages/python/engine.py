@@ -28,6 +28,8 @@ def declarations():
                               input=INCLUDES, stdout=subprocess.PIPE, check=True, text=True).stdout
     text = re.sub(r"^inline [^;{]*\{.*?^\}$", "", text, flags=re.M | re.S)
     text = re.sub(r"_Static_assert\(.*?\"\);", "", text, flags=re.S)
+    # The C compiler counts a workspace's words: their number depends on the pointer's size
+    text = re.sub(r"(\buint64_t words)\[[^\]]*\]", r"\1[...]", text)
     # cffi cannot write a pointer to an array of constants; the C compiler is told to ignore the
     # difference
     return re.sub(r"const (\w+)\s*\(\s*\*(\w+)\)\[3\]", r"\1 (*\2)[3]", text)
