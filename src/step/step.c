@@ -96,8 +96,7 @@ FIX_APART static uint32_t keep_blocked(struct carom_world *w)
     return kept;
 }
 
-/* Begin a frame; `anew`: once more, after the solve at its start stopped kinematic bodies. */
-static void begin(struct step *s, struct carom_world *w, bool anew)
+void step_begin(struct step *s, struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
     struct world_state *next = world_next(w);
@@ -105,7 +104,6 @@ static void begin(struct step *s, struct carom_world *w, bool anew)
     s->w = w;
     s->next = next;
     s->now_q30 = 0;
-    s->anew = anew;
     s->cut_short = s->pairs_changed = s->led = s->broke = s->strained = false;
     s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
     s->rare = w->pools[CAROM_POOL_extras].used > 0 || w->joint_steps || w->passing;
@@ -125,17 +123,13 @@ static void begin(struct step *s, struct carom_world *w, bool anew)
     interfere_begin_frame(&w->interfere);
     memset(&w->stats, 0, sizeof w->stats);
     w->stats.substeps = 1;
-    w->event_count = anew ? keep_blocked(w) : 0;
+    w->event_count = s->anew ? keep_blocked(w) : 0;
     pool_clear(&w->pools[CAROM_POOL_contacts]);
     pool_clear(&w->pools[CAROM_POOL_hits]);
     if (s->rare) {
         begin_rare(s);
     }
-}
-
-void step_begin(struct step *s, struct carom_world *w)
-{
-    begin(s, w, false);
+    s->anew = false;
 }
 
 /* Set the paths of all bodies at the start of the frame and find the first hits on them. */
@@ -322,19 +316,17 @@ static void step_idle(struct carom_world *w)
  */
 static int start(struct step *s, struct carom_world *w)
 {
-    bool anew = false;
     int result;
 
+    s->anew = false;
     do {
-        begin(s, w, anew);
-        s->anew = false;
+        step_begin(s, w);
         result = step_begin_regions(s);
         if (result == CAROM_OK && s->rare && w->sense_anew) {
             step_sense_start(s);
         }
         result = result == CAROM_OK ? step_start_contacts(s) : result;
-        anew = s->anew;
-    } while (anew);
+    } while (s->anew);
     return result;
 }
 
