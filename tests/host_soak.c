@@ -49,18 +49,19 @@ struct name {
  * in a touched group: bodies stood still. In m4614 a spring pressed a body into a limit and another one drew it off, in m4703 a body
  * swung about another one and pressed it into a third: these seemed to move, and did not. m5577 gained energy by hits that a callback
  * drops where nothing touched, m4514 by roundings of a group's common motion, and in m5674 a motor pressed two bodies against each other
- * until they stood. In m5710 a group stops a kinematic body in each frame, and springs pulled by the way that it did not take.
+ * until they stood. In m5710 a group stops a kinematic body in each frame, and springs pulled by the way that it did not take. In m4943
+ * the motor of one joint presses a body into the limit of another, and what swings about that body pulled it off.
  */
 static const struct name known_machines[] = {
-    {50, MACHINE, 0},     {102, MACHINE, 0},   {121, MACHINE, 0},    {150, MACHINE, 0},
-    {377, MACHINE, 0},    {590, MACHINE, 0},   {772, MACHINE, 0},    {12, MACHINE, 0},
-    {67, MACHINE, 0},     {289, MACHINE, 0},   {604, MACHINE, 0},    {691, MACHINE, 0},
-    {800, MACHINE, 20},   {125, MACHINE, 60},  {791, MACHINE, 80},   {828, MACHINE, 120},
-    {865, MACHINE, 80},   {1426, MACHINE, 60}, {1429, MACHINE, 140}, {1871, MACHINE, 60},
-    {123, MACHINE, 90},   {2080, MACHINE, 50}, {2242, MACHINE, 50},  {4614, MACHINE, 20},
-    {4703, MACHINE, 20},  {4514, MACHINE, 0},  {5577, MACHINE, 190}, {5674, MACHINE, 30},
-    {5710, MACHINE, 225}, {14, WILD, 0},       {68, WILD, 60},       {86, WILD, 60},
-    {123, WILD, 0}};
+    {50, MACHINE, 0},    {102, MACHINE, 0},    {121, MACHINE, 0},    {150, MACHINE, 0},
+    {377, MACHINE, 0},   {590, MACHINE, 0},    {772, MACHINE, 0},    {12, MACHINE, 0},
+    {67, MACHINE, 0},    {289, MACHINE, 0},    {604, MACHINE, 0},    {691, MACHINE, 0},
+    {800, MACHINE, 20},  {125, MACHINE, 60},   {791, MACHINE, 80},   {828, MACHINE, 120},
+    {865, MACHINE, 80},  {1426, MACHINE, 60},  {1429, MACHINE, 140}, {1871, MACHINE, 60},
+    {123, MACHINE, 90},  {2080, MACHINE, 50},  {2242, MACHINE, 50},  {4614, MACHINE, 20},
+    {4703, MACHINE, 20}, {4943, MACHINE, 110}, {4514, MACHINE, 0},   {5577, MACHINE, 190},
+    {5674, MACHINE, 30}, {5710, MACHINE, 225}, {14, WILD, 0},        {68, WILD, 60},
+    {86, WILD, 60},      {123, WILD, 0}};
 /* Largest share of frames that may be cut short. */
 #define CUT_ALLOWED 0.01
 

@@ -303,6 +303,73 @@ static void test_pressed(void)
 }
 
 /*
+ * A is at a limit. The motor between B and A pushes B off and so presses A into the limit, and a spring between A and C pulls A away, by
+ * 1/512 of mass 1 a frame and more softly later. A press of 1/64 holds A, one of 1/4096 cannot.
+ */
+static void test_pressed_by_another(void)
+{
+    for (int way = 0; way < 4; way++) {
+        const int sign = way & 1 ? -1 : 1;
+        const bool holds = way & 2;
+        struct carom_joint_def j;
+
+        setup(0);
+        CHECK_EQ(add(0, 0, 0), 0);
+        CHECK_EQ(add(2 * UNIT, 0, 0), 1);
+        CHECK_EQ(add(-2 * UNIT, 0, 0), 2);
+        j = joint(CAROM_JOINT_SLIDER, 0, CAROM_WORLD, 0, 0, 0);
+        j.drive.limited = true;
+        j.drive.lower_q32 = sign < 0 ? 0 : -UNIT;
+        j.drive.upper_q32 = sign < 0 ? UNIT : 0;
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+        j = joint(CAROM_JOINT_SLIDER, 2, 0, -UNIT, 0, 0);
+        j.drive.motor = true;
+        j.drive.motor_speed_q40 = -sign * ONE;
+        j.drive.motor_most_q40 = holds ? ONE / 64 : ONE / 4096;
+        CHECK_EQ(carom_joint_add(world, &j), 1);
+        j = joint(CAROM_JOINT_SLIDER, 1, 0, UNIT, 0, 0);
+        j.drive.spring = true;
+        j.drive.stiffness_q40 = ONE / 256;
+        j.drive.rest_q32 = sign * UNIT / 2;
+        CHECK_EQ(carom_joint_add(world, &j), 2);
+        for (int frame = 1; frame <= 10; frame++) {
+            steps(1);
+            if (holds) {
+                CHECK_NEAR(state_of(0).velocity.c[2], 0, 1 << 14);
+                CHECK_NEAR(state_of(0).position.c[2], 0, UNIT >> 18);
+                CHECK_NEAR(state_of(2).velocity.c[2], -sign * frame * ONE / 64, ONE >> 16);
+            }
+        }
+        if (!holds) {
+            CHECK_LESS(sign * state_of(0).position.c[2], -UNIT / 64);
+        }
+    }
+}
+
+/* A motor that is ever so weak drives A off a limit: what a motor gives does not hold A there. */
+static void test_pushed_off(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        struct carom_joint_def j;
+
+        setup(0);
+        CHECK_EQ(add(0, 0, 0), 0);
+        j = joint(CAROM_JOINT_SLIDER, 0, CAROM_WORLD, 0, 0, 0);
+        j.drive.limited = true;
+        j.drive.lower_q32 = sign < 0 ? -UNIT : 0;
+        j.drive.upper_q32 = sign < 0 ? 0 : UNIT;
+        j.drive.motor = true;
+        j.drive.motor_speed_q40 = sign * ONE;
+        j.drive.motor_most_q40 = ONE >> 20;
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+        for (int frame = 1; frame <= 10; frame++) {
+            steps(1);
+            CHECK_NEAR(state_of(0).velocity.c[2], sign * frame * (ONE >> 20), 1 << 10);
+        }
+    }
+}
+
+/*
  * A motor presses two boxes that fly together against each other. Their contact opens a gap against
  * the motor, and they keep their momentum, though a wall beside their way does not let them go
  * through a frame as one.
@@ -508,6 +575,8 @@ const struct test tests_step_joint[] = {
     {"step_joint/held_back", test_held_back},
     {"step_joint/held_back_hit", test_held_back_hit},
     {"step_joint/near_limits", test_near_limits},
+    {"step_joint/pressed_by_another", test_pressed_by_another},
+    {"step_joint/pushed_off", test_pushed_off},
     {"step_joint/pressed", test_pressed},
     {"step_joint/pulled_to_a_wall", test_pulled_to_a_wall},
     {"step_joint/pressed_together", test_pressed_together},

@@ -79,8 +79,9 @@ struct joint_work {
     int64_t change_q40[JOINT_ROWS]; /* the required change of V */
     int64_t speed_q40[JOINT_ROWS];  /* V before the solve */
     /*
-     * changes of V of the last row that the limits ask for (low, high); the motor's largest impulse
-     * (most); a bound on these changes and the motor's velocity (least)
+     * changes of V of the last row that the limits ask for (low, high); the largest impulse of the
+     * motor, or at the end of a frame of what holds at a limit (most); a bound on these changes and
+     * the motor's velocity (least)
      */
     int64_t low_q40, high_q40, most_q40, least_q40;
     /*

@@ -383,7 +383,7 @@ void joint_begin(struct joint *j, const struct joint_state *state, const struct 
         law->low_v = in_units(work, last, work->speed_q40[last] + work->low_q40, sw->unit);
         law->high_v = in_units(work, last, work->speed_q40[last] + work->high_q40, sw->unit);
     }
-    law->motor_v = in_units(work, last, state->drive.motor_speed_q40, sw->unit);
+    law->motor_v = work->stops ? 0 : in_units(work, last, state->drive.motor_speed_q40, sw->unit);
     law->most = impulse_in_units(work, last, work->most_q40, sw->unit);
     law->spring_v = in_units(work, last, work->speed_q40[last] + work->spring_q40, sw->unit);
     if (law->spring) {

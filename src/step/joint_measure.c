@@ -194,10 +194,38 @@ static void measure_spring(const struct step *s, struct joint *j, const struct j
 }
 
 /*
+ * Impulse with which a limit holds its coordinate at the end of a frame; sign: 1 lower, -1 upper.
+ * What pressed it there when the frame began presses through the frame: its own motor, and by as much
+ * as the limit gave then, other joints. So the row may draw by that.
+ */
+static int64_t held_at(const struct carom_joint_drive *d, int64_t given_q40, int sign)
+{
+    int64_t limit_q40 = given_q40 * sign, motor_q40 = d->motor ? d->motor_most_q40 : 0;
+    bool presses = d->motor && d->motor_speed_q40 * sign < 0;
+
+    limit_q40 -= presses ? 0 : motor_q40; /* the motor may have given so much of it */
+    return (presses ? motor_q40 : 0) + (limit_q40 > 0 ? limit_q40 : 0);
+}
+
+/* At the end of a frame a limit that is closer than close_q40 stops what moves on to it. */
+static void stop_at_limits(struct joint_work *work, const struct joint_state *state,
+                           int64_t now_q40, int64_t close_q40)
+{
+    const struct carom_joint_drive *d = &state->drive;
+    int64_t given_q40 = state->impulse_q40[work->held], low_q40, high_q40;
+
+    work->law.lower = now_q40 - close_q40 < carom_shl(d->lower_q32, 8);
+    work->law.upper = now_q40 + close_q40 > carom_shl(d->upper_q32, 8);
+    low_q40 = work->law.lower ? held_at(d, given_q40, 1) : 0;
+    high_q40 = work->law.upper ? held_at(d, given_q40, -1) : 0;
+    work->most_q40 = low_q40 > high_q40 ? low_q40 : high_q40;
+    work->law.motor = !d->spring && work->most_q40 > 0;
+}
+
+/*
  * Measure limits, motor and spring of a coordinate that changes by change_q40 in the slice. A motor
- * acts once a frame, a spring in each slice: the pull of a stiff one changes on the way. At the end
- * of the frame a limit that is closer than close_q40, in the coordinate's unit, stops what moves on
- * to it, and a motor holds what it has pressed into that limit against the second half of a spring.
+ * acts once a frame, a spring in each slice: the pull of a stiff one changes on the way. close_q40 is
+ * in the coordinate's unit.
  */
 static void measure_drive(const struct step *s, struct joint *j, const struct joint_state *state,
                           int64_t now_q40, int64_t change_q40, int32_t slice_q30, int64_t close_q40,
@@ -212,10 +240,7 @@ static void measure_drive(const struct step *s, struct joint *j, const struct jo
     work->least_q40 = 0;
     work->stops = solve == JOINT_PROJECT;
     if (d->limited && work->stops) {
-        work->law.lower = now_q40 - close_q40 < carom_shl(d->lower_q32, 8);
-        work->law.upper = now_q40 + close_q40 > carom_shl(d->upper_q32, 8);
-        work->law.motor = d->motor && ((work->law.upper && d->motor_speed_q40 > 0) ||
-                                       (work->law.lower && d->motor_speed_q40 < 0));
+        stop_at_limits(work, state, now_q40, close_q40);
     } else if (d->limited) {
         int64_t below_q40 = carom_shl(d->lower_q32, 8) - now_q40;
         int64_t above_q40 = carom_shl(d->upper_q32, 8) - now_q40;
@@ -226,7 +251,7 @@ static void measure_drive(const struct step *s, struct joint *j, const struct jo
                           : work->high_q40 < 0 ? -work->high_q40
                                                : 0;
     }
-    if (work->law.motor) {
+    if (work->law.motor && !work->stops) {
         work->most_q40 = d->motor_most_q40;
         work->least_q40 += carom_abs(d->motor_speed_q40);
     }
