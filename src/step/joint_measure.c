@@ -195,31 +195,34 @@ static void measure_spring(const struct step *s, struct joint *j, const struct j
 
 /*
  * Impulse with which a limit holds its coordinate at the end of a frame; sign: 1 lower, -1 upper.
- * What pressed it there when the frame began presses through the frame: its own motor, and by as much
- * as the limit gave then, other joints. So the row may draw by that.
+ * What pressed it there when the frame began presses through the frame: the row's motor, and other
+ * joints, by as much as the limit gave then.
  */
 static int64_t held_at(const struct carom_joint_drive *d, int64_t given_q40, int sign)
 {
-    int64_t limit_q40 = given_q40 * sign, motor_q40 = d->motor ? d->motor_most_q40 : 0;
-    bool presses = d->motor && d->motor_speed_q40 * sign < 0;
+    int64_t limit_q40 = given_q40 * sign, motor_q40 = 0;
 
-    limit_q40 -= presses ? 0 : motor_q40; /* the motor may have given so much of it */
-    return (presses ? motor_q40 : 0) + (limit_q40 > 0 ? limit_q40 : 0);
+    if (d->motor && d->motor_speed_q40 * sign < 0) {
+        motor_q40 = d->motor_most_q40;
+    } else if (d->motor) {
+        limit_q40 -= d->motor_most_q40; /* it leads off, and may have given so much of this */
+    }
+    return motor_q40 + (limit_q40 > 0 ? limit_q40 : 0);
 }
 
-/* At the end of a frame a limit that is closer than close_q40 stops what moves on to it. */
+/*
+ * At the end of a frame a limit that is closer than close_q40 stops what moves on to it, and holds
+ * there. Where both are so close, they stop all.
+ */
 static void stop_at_limits(struct joint_work *work, const struct joint_state *state,
                            int64_t now_q40, int64_t close_q40)
 {
     const struct carom_joint_drive *d = &state->drive;
-    int64_t given_q40 = state->impulse_q40[work->held], low_q40, high_q40;
 
     work->law.lower = now_q40 - close_q40 < carom_shl(d->lower_q32, 8);
     work->law.upper = now_q40 + close_q40 > carom_shl(d->upper_q32, 8);
-    low_q40 = work->law.lower ? held_at(d, given_q40, 1) : 0;
-    high_q40 = work->law.upper ? held_at(d, given_q40, -1) : 0;
-    work->most_q40 = low_q40 > high_q40 ? low_q40 : high_q40;
-    work->law.motor = !d->spring && work->most_q40 > 0;
+    work->most_q40 = held_at(d, state->impulse_q40[work->held], work->law.lower ? 1 : -1);
+    work->law.motor = !d->spring && work->law.lower != work->law.upper && work->most_q40 > 0;
 }
 
 /*
