@@ -59,11 +59,7 @@ inline bool step_active(const struct step *s, uint32_t i)
     return broad_active(&s->w->bodies[i], &s->next->bodies[i]);
 }
 
-/*
- * Start the next state as a copy of the current one, without events or contacts. If `s->anew`, as it
- * was left by a solve at the start of the same frame: kinematic bodies that it stopped stand, and
- * their events stay. Clears `s->anew`.
- */
+/* Start the next state as a copy of the current one, without events or contacts. */
 void step_begin(struct step *s, struct carom_world *w);
 
 /* Damp bodies and add the angular momentum of their torques. */

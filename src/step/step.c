@@ -96,7 +96,8 @@ FIX_APART static uint32_t keep_blocked(struct carom_world *w)
     return kept;
 }
 
-void step_begin(struct step *s, struct carom_world *w)
+/* Begin a frame; if `s->anew`, once more, after the solve at its start stopped kinematic bodies. */
+static void begin(struct step *s, struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
     struct world_state *next = world_next(w);
@@ -130,6 +131,12 @@ void step_begin(struct step *s, struct carom_world *w)
         begin_rare(s);
     }
     s->anew = false;
+}
+
+void step_begin(struct step *s, struct carom_world *w)
+{
+    s->anew = false;
+    begin(s, w);
 }
 
 /* Set the paths of all bodies at the start of the frame and find the first hits on them. */
@@ -320,7 +327,7 @@ static int start(struct step *s, struct carom_world *w)
 
     s->anew = false;
     do {
-        step_begin(s, w);
+        begin(s, w);
         result = step_begin_regions(s);
         if (result == CAROM_OK && s->rare && w->sense_anew) {
             step_sense_start(s);
