@@ -50,7 +50,7 @@ struct name {
  * swung about another one and pressed it into a third: these seemed to move, and did not. m5577 gained energy by hits that a callback
  * drops where nothing touched, m4514 by roundings of a group's common motion, and in m5674 a motor pressed two bodies against each other
  * until they stood. In m5710 a group stops a kinematic body in each frame, and springs pulled by the way that it did not take. In m4943
- * the motor of one joint presses a body into the limit of another, and what swings about that body pulled it off.
+ * the motor of one joint presses a body into the limit of another, and bodies that swing about it pulled it off.
  */
 static const struct name known_machines[] = {
     {50, MACHINE, 0},    {102, MACHINE, 0},    {121, MACHINE, 0},    {150, MACHINE, 0},

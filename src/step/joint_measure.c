@@ -195,8 +195,8 @@ static void measure_spring(const struct step *s, struct joint *j, const struct j
 
 /*
  * Impulse with which a limit holds its coordinate at the end of a frame; sign: 1 lower, -1 upper.
- * What pressed it there when the frame began presses through the frame: the row's motor, and other
- * joints, by as much as the limit gave then.
+ * The row's motor presses it there through the whole frame, and so do other joints, by as much as the
+ * limit gave when the frame began.
  */
 static int64_t held_at(const struct carom_joint_drive *d, int64_t given_q40, int sign)
 {
