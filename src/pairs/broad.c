@@ -30,9 +30,12 @@ static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t h
     box_q18[1][k] = (int32_t)((middle_q22 + half_q22) >> 4) + 1;
 }
 
-/* The box of a body's mesh in world axes, grown by its reach. */
+/*
+ * Set both corners of the box of a body's mesh in world axes, grown by its reach. They come by a pointer: GCC
+ * 12 takes an array of two for an overflow at -O3 with sanitizers.
+ */
 static void bounds(const struct body *b, const carom_v3_q32 *at, const carom_quat_q30 *q,
-                   int32_t reach_q22, int32_t box_q18[2][3])
+                   int32_t reach_q22, int32_t (*box_q18)[3])
 {
     const struct carom_mesh *mesh = b->def.mesh;
     int shift = 22 - mesh->raw.quantum_bits;
