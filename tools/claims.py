@@ -48,13 +48,13 @@ def sentences():
     """The sentences of README.md."""
     counted = {row["figure"]: row["measured"] if row["measured"] != "0" else "none" for row in table_of("docs/evidence.md", "soak")}
     fixtures = [row["does"] for row in table_of("docs/fixtures.md", "fixtures")]
-    builds, scenes = re.match(r"(\d+) builds, (\d+) scenes, one hash each", lines_of("docs/matrix.md", "matrix")[0]).groups()
+    builds, scenes, earlier = re.match(r"(\d+) builds, (\d+) scenes, one hash each\.(.*)", lines_of("docs/matrix.md", "matrix")[0]).groups()
     yield ("[docs/evidence.md](docs/evidence.md) counts %s random worlds of bodies: faces crossed in %s of them, and a body that had to "
            "move stood still in %s. Of %s random machines on joints, faces crossed in %s, and a body stood still in %s. "
            "[docs/fixtures.md](docs/fixtures.md) has %d published and special scenes, and %d of them do what they should. "
-           "[docs/matrix.md](docs/matrix.md) has %s scenes, which ended in one hash each in %s builds." % (
+           "[docs/matrix.md](docs/matrix.md) has %s scenes, which ended in one hash each in %s builds.%s" % (
                *(counted["%s: %s" % (kind, figure)] for kind in ("bodies", "machines") for figure in ("worlds", "crosses", "stands still")),
-               len(fixtures), fixtures.count("yes"), scenes, builds))
+               len(fixtures), fixtures.count("yes"), scenes, builds, earlier))
 
 
 def missed_costs():

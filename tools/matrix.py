@@ -5,7 +5,8 @@
 Every build plays the scenes of tests/lib/plays.c and must print the same hash for each. A build that cannot be made or run
 fails, and so does one with a different hash. The tool then searches the first frame that differs, and in that frame the
 first stage with a different result. Builds of the other byte order or word length continue from snapshots of a build, for
-as many frames. out/matrix.csv has a row a build and scene.
+as many frames. out/matrix.csv has a row a build and scene. A build that played every scene in full, as tests/plays.csv has it,
+gets a row of tests/matrix.csv at once, so that a part of the builds, or a run that was ended, counts (matrix_page.py).
 """
 import argparse
 import concurrent.futures
@@ -22,14 +23,13 @@ import sys
 import threading
 import time
 
-import claims
+import evidence
 import gate
-import marked
+import matrix_page
 import run_board
 
 ROOT = run_board.ROOT
 OUT = "out/matrix.csv"
-DOCS = "docs/matrix.md"
 WORK = "build/matrix"
 TIMEOUT = 900  # seconds a command
 FRAMES = 2000, 600  # frames of a scene; of a scene in the short form: it goes on from the snapshots for 100
@@ -95,6 +95,7 @@ NO_LIBRARY_PORT = ["port/nolibc/string.c"]
 NO_LIBRARY_OPTIONS = ["-ffreestanding", "-I%s/port/nolibc" % ROOT]
 MESHES = {}  # by target: objects
 MAKING = threading.Lock()  # boards share tools and meshes
+KEEPING = threading.Lock()
 
 
 class Failure(Exception):
@@ -351,8 +352,8 @@ def attempt(action, build, *arguments):
     return None
 
 
-def do(build, number, scenes, play):
-    """Make and run a build; memory first holds zeros or other bytes, in turn."""
+def do(build, number, scenes, play, commit):
+    """Make and run a build; memory first holds zeros or other bytes, in turn. With a commit, keep whether it played as committed."""
     start = time.monotonic()
 
     def all_of_it():
@@ -360,18 +361,22 @@ def do(build, number, scenes, play):
         build.play(scenes, *play, "fill=%d" % (165 * (number % 2)))
 
     wrong = attempt(all_of_it, build)
+    if commit:
+        wrong = wrong or "\n".join(matrix_page.faults(build))
+        with KEEPING:
+            matrix_page.keep(build, not wrong, "" if wrong else compiler_version(build), commit)
     print("  %-58s %4d s%s" % (build, time.monotonic() - start,
                                  "  FAILS: " + wrong.splitlines()[0] if wrong else ""), flush=True)
     return wrong
 
 
-def do_all(builds, scenes, play, jobs):
+def do_all(builds, scenes, play, jobs, commit):
     """Make and run all builds; returns the faults, a line each."""
     failures = []
     targets = {build.target: build for build in builds if not isinstance(build, Board)}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         failures += pool.map(lambda build: attempt(make_meshes, build, build), targets.values())
-        failures += pool.map(lambda item: do(item[1], item[0], scenes, play), enumerate(builds))
+        failures += pool.map(lambda item: do(item[1], item[0], scenes, play, commit), enumerate(builds))
     done = [build for build in builds if build.scenes]
     kept = {build.target: build for build in reversed(done)}
     for build in done:
@@ -445,38 +450,6 @@ def compiler_version(build):
     return re.search(r"\d+\.\d+\.\d+", call([build.command[0], "--version"], "version")).group()
 
 
-def docs_rows(builds):
-    """A row for each target and compiler."""
-    for (target, compiler), group in itertools.groupby(
-            builds, lambda build: (build.target, build.compiler)):
-        group = list(group)
-        build = group[0]
-        yield "| %s | %d | %s | %s %s | %s | %d |" % (
-            target, build.bits, build.order, compiler, compiler_version(build), build.where,
-            len(group))
-
-
-def docs_lines(builds, crossings):
-    """A summary: the targets, the options and the hashes, each once."""
-    scenes = builds[0].scenes
-    yield "%d builds, %d scenes, one hash each; %d snapshots of one build were continued by another." % (
-        len(builds), len(scenes), sum(crossings.values()))
-    yield from ["", "| target | bits | byte order | compiler | runs on | builds |", "|---|---|---|---|---|---|"]
-    yield from docs_rows(builds)
-    yield from ["", "| compiler | option sets, each a build |", "|---|---|"]
-    by_compiler = {}
-    for build in builds:
-        by_compiler.setdefault(build.compiler, {})[build.options] = None
-    for compiler, options in by_compiler.items():
-        yield "| %s | %s |" % (compiler, ", ".join("`%s`" % each for each in options))
-    yield from ["", "| scene | frames | with a body awake | hash |", "|---|---|---|---|"]
-    for scene, words in scenes.items():
-        yield "| %s | %s | %s | `%s` |" % (scene, *words[:3])
-    for build in builds:
-        if build.absent:
-            yield from ["", "%s has no room for %s." % (build.target, ", ".join(build.absent))]
-
-
 def chosen(arguments):
     """The builds that were asked for."""
     builds = list(every_build(arguments.short))
@@ -508,15 +481,13 @@ def main():
     gate.need(*sorted({thing for build in builds for thing in build.need}))
     scenes = arguments.scenes.split(",") if arguments.scenes else []
     play = ["frames=%d" % (arguments.frames or FRAMES[arguments.short]), "at=%d" % AT]
-    failures, done, kept = do_all(builds, scenes, play, arguments.jobs)
+    whole = not (scenes or arguments.frames or arguments.short or arguments.engine)
+    failures, done, kept = do_all(builds, scenes, play, arguments.jobs, whole and evidence.commit())
     wrong, crossings = cross_all(kept, arguments.jobs)
     failures += wrong
-    report(done, failures, crossings)
-    if len(builds) == len(list(every_build(arguments.short))) and not scenes:
+    if not scenes:
         write_csv(done)
-        if not arguments.short and not failures:
-            marked.write(DOCS, "matrix", docs_lines(done, crossings))
-            claims.write()
+    report(done, failures, crossings)
     return bool(failures)
 
 
