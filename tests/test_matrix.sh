@@ -88,4 +88,45 @@ echo 'int one = "one";' >>"$work/src/num/fix.c"
 { matrix --targets m68k --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'FAIL m68k gcc -O0: compile: ' '0 builds, 0 scenes, 1 failures'
 report $? 'a build that cannot be made is a failure'
+# The page, in a copy: a build of today's engine, and one of an earlier one.
+mkdir "$work/page" "$work/page/tests"
+cp -r tools docs include README.md SPEC.md "$work/page"
+cp tests/*.csv "$work/page/tests"
+{
+    head -n 1 tests/matrix.csv
+    echo "m68k,gcc,-O2,12.2.0,32,big,qemu-m68k,,$(sha256sum tests/plays.csv | cut -c1-8),2026-01-02,1234567"
+    echo "sh4,gcc,-O0,12.2.0,32,little,qemu-sh4,,00000000,2026-01-01,7654321"
+} >"$work/page/tests/matrix.csv"
+plays=$(($(wc -l <tests/plays.csv) - 1))
+"$work/page/tools/matrix_page.py" --write && "$work/page/tools/claims.py" --write >"$work/said" &&
+    cat "$work/page/docs/matrix.md" "$work/page/README.md" >"$work/said" &&
+    says "2 builds, $plays scenes, one hash each. 1 of these builds played an earlier engine." \
+        "$plays scenes, which ended in one hash each in 2 builds. 1 of these builds played an earlier engine."
+report $? 'builds of an earlier engine are named'
+
+sed -i '/^box,/ s/.$/x/' "$work/page/tests/plays.csv"
+! "$work/page/tools/matrix_page.py" >"$work/said" 2>&1 && says 'docs/matrix.md does not show'
+report $? 'a page that does not show the committed hashes is noticed'
+
+# A build that plays as committed gets a row; one that does not loses it, and is named.
+cat >"$work/page/tools/try.py" <<'EOF'
+import types
+
+import matrix_page
+import plays
+import results
+
+rows = plays.kept("plays", matrix_page.ROOT)
+right = types.SimpleNamespace(target="armel", compiler="gcc", options="-O1", bits=32, order="little", where="qemu-arm", absent=["box"],
+                              scenes={row[0]: row[1:4] for row in rows if row[0] != "box"})
+for build, bad in (right, None), (right, "pile"):
+    if bad:
+        build.scenes[bad] = ["2000", "1", "0"]
+    faults = list(matrix_page.faults(build))
+    matrix_page.keep(build, not faults, "12.2.0", "1234567")
+    print(len(faults), *faults, [row["options"] for row in results.read(matrix_page.KEPT)])
+EOF
+/usr/bin/python3 -B "$work/page/tools/try.py" >"$work/said" 2>&1 &&
+    says "0 ['-O1', '-O2', '-O0']" "pile has 0; tests/plays.csv has" "['-O2', '-O0']"
+report $? 'a build has a row while it plays as committed'
 echo "1..$tests"
