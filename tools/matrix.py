@@ -143,6 +143,8 @@ class Build:
               *[os.path.join(ROOT, source) for source in sources]], "compile", self.folder)
 
     def make(self):
+        if self.target not in MESHES:
+            raise Failure("its meshes could not be made")
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.folder)
         self.compile(sorted(glob.glob(self.engine + "/*/*.c")), "-ffreestanding", *WARNINGS)
@@ -186,9 +188,10 @@ class Linux(Build):
         self.need = ([triple, "qemu-user"] if triple else ["cc", "libc"]) + \
             (["clang", "lld"] if compiler == "clang" else [])
         gcc = [triple + "-gcc" if triple else "gcc"]
+        # clang takes the newest GCC of a processor's, and one without an operating system has no headers for Linux
         static = [] if target in DYNAMIC else ["-static"]
         self.command = gcc if compiler == "gcc" else \
-            ["clang"] + (["--target=" + triple] if triple else []) + CLANG_ARCH.get(target, [])
+            ["clang"] + (["--target=" + triple, "-isystem", "/usr/%s/include" % triple] if triple else []) + CLANG_ARCH.get(target, [])
         # Debian's clang does not find every cross linker: for those targets gcc links what clang
         # compiled
         self.linker = [*self.command, *options.split()] if compiler == "gcc" or not triple else gcc
