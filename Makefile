@@ -323,10 +323,10 @@ bench: ## count instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= 
 	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
 	    --scenes '$(BENCH_SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
 
-matrix: ## compare state hashes of every instruction set, compiler and option, to docs/matrix.md; TARGETS=armel,sh4 SHORT=1
+matrix: ## compare state hashes of every instruction set, compiler and option, to docs/matrix.md; TARGETS=armel,sh4 MISSING=1 SHORT=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/matrix.elf
-	@tools/matrix.py $(if $(SHORT),--short) $(if $(TARGETS),--targets $(TARGETS))
+	@tools/matrix.py $(if $(SHORT),--short) $(if $(TARGETS),--targets $(TARGETS)) $(if $(MISSING),--missing)
 
 replay: need ## play a recording here and on BOARD=; FILE=; AGAINST= compares it with another, call by call (docs/replay.md)
 	@test -n '$(FILE)' || { echo 'FILE= names the recording'; false; }

@@ -124,9 +124,9 @@ for build, bad in (right, None), (right, "pile"):
         build.scenes[bad] = ["2000", "1", "0"]
     faults = list(matrix_page.faults(build))
     matrix_page.keep(build, not faults, "12.2.0", "1234567")
-    print(len(faults), *faults, [row["options"] for row in results.read(matrix_page.KEPT)])
+    print(len(faults), *faults, [row["options"] for row in results.read(matrix_page.KEPT)], len(matrix_page.missing([build])), "missing")
 EOF
 /usr/bin/python3 -B "$work/page/tools/try.py" >"$work/said" 2>&1 &&
-    says "0 ['-O1', '-O2', '-O0']" "pile has 0; tests/plays.csv has" "['-O2', '-O0']"
+    says "0 ['-O1', '-O2', '-O0'] 0 missing" "pile has 0; tests/plays.csv has" "['-O2', '-O0'] 1 missing"
 report $? 'a build has a row while it plays as committed'
 echo "1..$tests"

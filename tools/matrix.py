@@ -462,6 +462,8 @@ def chosen(arguments):
         builds = [build for build in builds if build.compiler in arguments.compilers.split(",")]
     if arguments.options:
         builds = [build for build in builds if build.options == arguments.options]
+    if arguments.missing:
+        builds = matrix_page.missing(builds)
     for target, folder in (text.split("=") for text in arguments.engine):
         for build in builds:
             build.engine = folder if build.target == target else build.engine
@@ -476,6 +478,7 @@ def main():
     parser.add_argument("--targets", help="only these, with commas")
     parser.add_argument("--compilers", help="only these, with commas")
     parser.add_argument("--options", help="only builds with these")
+    parser.add_argument("--missing", action="store_true", help="only builds without a row of today's plays in tests/matrix.csv")
     parser.add_argument("--scenes", help="only these, with commas")
     parser.add_argument("--engine", metavar="TARGET=FOLDER", action="append", default=[],
                         help="for a target, the engine in another folder")

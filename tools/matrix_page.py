@@ -41,6 +41,12 @@ def faults(build):
             yield "%s: %s has %s; tests/plays.csv has %s" % (build, scene, played and played[2], wanted)
 
 
+def missing(builds):
+    """Those without a row of today's plays."""
+    there = {key_of(row) for row in results.read(KEPT) if row["plays"] == digest()}
+    return [build for build in builds if (build.target, build.compiler, build.options) not in there]
+
+
 def keep(build, good, version, commit):
     """Write the row of a build that was good, drop that of one that was not, and write the page."""
     rows = {key_of(row): row for row in results.read(KEPT)}
