@@ -375,6 +375,7 @@ static void report(const char *name, enum kind kind, int worlds, long least)
 
 /* With the assertions, the search for worlds with calls of each kind takes a minute. */
 #ifndef CAROM_DEBUG
+/* Fewer steps that fail than a third of the calls in these worlds would mean that too little was asked. */
 static void each_kind_alone(int worlds)
 {
     static const char *const names[] = {"errors/pairs",    "errors/touching", "errors/through",

@@ -88,6 +88,7 @@ echo 'int one = "one";' >>"$work/src/num/fix.c"
 { matrix --targets m68k --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'FAIL m68k gcc -O0: compile: ' '0 builds, 0 scenes, 1 failures'
 report $? 'a build that cannot be made is a failure'
+
 # The page, in a copy: a build of today's engine, and one of an earlier one.
 mkdir "$work/page" "$work/page/tests"
 cp -r tools docs include README.md SPEC.md "$work/page"

@@ -95,7 +95,7 @@ NO_LIBRARY_PORT = ["port/nolibc/string.c"]
 NO_LIBRARY_OPTIONS = ["-ffreestanding", "-I%s/port/nolibc" % ROOT]
 MESHES = {}  # by target: objects
 MAKING = threading.Lock()  # boards share tools and meshes
-KEEPING = threading.Lock()
+KEEPING = threading.Lock()  # builds share tests/matrix.csv
 
 
 class Failure(Exception):
@@ -188,8 +188,8 @@ class Linux(Build):
         self.need = ([triple, "qemu-user"] if triple else ["cc", "libc"]) + \
             (["clang", "lld"] if compiler == "clang" else [])
         gcc = [triple + "-gcc" if triple else "gcc"]
-        # clang takes the newest GCC of a processor's, and one without an operating system has no headers for Linux
         static = [] if target in DYNAMIC else ["-static"]
+        # clang takes the headers of the newest GCC for a processor, and one for bare machines has none for Linux
         self.command = gcc if compiler == "gcc" else \
             ["clang"] + (["--target=" + triple, "-isystem", "/usr/%s/include" % triple] if triple else []) + CLANG_ARCH.get(target, [])
         # Debian's clang does not find every cross linker: for those targets gcc links what clang

@@ -27,6 +27,10 @@ def key_of(row):
     return tuple(row[column] for column in KEY)
 
 
+def key_of_build(build):
+    return tuple(getattr(build, column) for column in KEY)
+
+
 def digest():
     """The state of tests/plays.csv."""
     with open(plays.kept_in("plays", ROOT), "rb") as file:
@@ -43,14 +47,15 @@ def faults(build):
 
 def missing(builds):
     """Those without a row of today's plays."""
-    there = {key_of(row) for row in results.read(KEPT) if row["plays"] == digest()}
-    return [build for build in builds if (build.target, build.compiler, build.options) not in there]
+    now = digest()
+    there = {key_of(row) for row in results.read(KEPT) if row["plays"] == now}
+    return [build for build in builds if key_of_build(build) not in there]
 
 
 def keep(build, good, version, commit):
     """Write the row of a build that was good, drop that of one that was not, and write the page."""
     rows = {key_of(row): row for row in results.read(KEPT)}
-    key = build.target, build.compiler, build.options
+    key = key_of_build(build)
     rows.pop(key, None)
     if good:
         rows[key] = dict(zip(COLUMNS.split(","), (

@@ -31,8 +31,8 @@ static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t h
 }
 
 /*
- * Set both corners of the box of a body's mesh in world axes, grown by its reach. They come by a pointer: GCC
- * 12 takes an array of two for an overflow at -O3 with sanitizers.
+ * Set the box of a body's mesh in world axes, grown by its reach. The box comes by a pointer, since
+ * GCC 12 with sanitizers at -O3 takes a parameter [2][3] for an overflow.
  */
 static void bounds(const struct body *b, const carom_v3_q32 *at, const carom_quat_q30 *q,
                    int32_t reach_q22, int32_t (*box_q18)[3])
