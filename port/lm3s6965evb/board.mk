@@ -3,7 +3,7 @@
 CPU := Cortex-M3
 DISPLAY := OLED 128 x 64, 16 greys
 CLOCK_MHZ := 50
-SCENES := head100:60
+SCENES := head100:59
 FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
 OPT := -O2

@@ -10,6 +10,6 @@ OPT := -O2 -funroll-loops
 CPU := Cortex-M3
 CLOCK_MHZ := 25
 DISPLAY := none; frames by semihosting
-SCENES := head:13 head450:20 head836:23 sheet:16 pile:1 box:49 car walker:60 lockstep door:8 chain crusher conveyor:4 gears:1 screw newton:2 dominoes cards arch bowl:2 pour espresso:34 espresso-fine:30
+SCENES := head:13 head450:20 head836:22 sheet:16 pile:1 box:49 car walker:60 lockstep door:8 chain crusher conveyor:4 gears:1 screw newton:3 dominoes cards arch bowl:2 pour espresso:32 espresso-fine:27
 PICTURES := 0
 SUITE_IMAGES := 1

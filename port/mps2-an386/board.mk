@@ -3,7 +3,7 @@
 CPU := Cortex-M4
 DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 25
-SCENES := head:14 head450:21 head836:23 sheet:16 pile:1 box:50 car walker:60 lockstep door:9 chain crusher conveyor:4 gears:1 screw newton:2 dominoes cards arch bowl:2 pour espresso:35 espresso-fine:31
+SCENES := head:13 head450:20 head836:23 sheet:16 pile:1 box:49 car walker:60 lockstep door:9 chain crusher conveyor:4 gears:1 screw newton:3 dominoes cards arch bowl:2 pour espresso:32 espresso-fine:27
 FAMILY := arm
 ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
 PORT := port/mps2/mps2.c port/bare/picture.c port/arm/cortex_m.c

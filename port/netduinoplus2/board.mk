@@ -3,7 +3,7 @@
 CPU := Cortex-M4
 DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 168
-SCENES := head:60 head450:60 box:60 door:43 crusher:3 newton:11 bowl:9
+SCENES := head:60 head450:60 box:60 door:43 crusher:3 newton:13 bowl:9
 FAMILY := arm
 ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
 # Room for more scenes.

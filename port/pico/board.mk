@@ -4,7 +4,7 @@ CPU := Cortex-M0+
 CLOCK_MHZ := 125
 CYCLES := 1
 DISPLAY := LCD 240 x 240, by rows
-SCENES := head450:30 boxes3:60
+SCENES := head450:29 boxes3:60
 CROSS := arm-none-eabi-
 NEED := arm newlib python3 node npm npm:tools/pico
 ARCH := -mcpu=cortex-m0plus -mthumb

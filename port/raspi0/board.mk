@@ -10,6 +10,6 @@ ICOUNT_SHIFT := 10
 CPU := ARM1176JZF-S
 CLOCK_MHZ := 1000
 DISPLAY := HDMI 512 x 512
-SCENES := head:60 head450:60 head836:60 sheet:60 pile:41 box:60 car:6 walker:60 lockstep door:60 chain:1 crusher:17 conveyor:60 gears:22 screw:21 newton:59 dominoes:18 cards:10 arch:13 bowl:46 pour:7 espresso:60 espresso-fine:60
+SCENES := head:60 head450:60 head836:60 sheet:60 pile:40 box:60 car:6 walker:60 lockstep door:60 chain:2 crusher:18 conveyor:60 gears:24 screw:21 newton:60 dominoes:17 cards:9 arch:13 bowl:46 pour:6 espresso:60 espresso-fine:60
 PICTURES := 1
 SUITE_IMAGES := 1

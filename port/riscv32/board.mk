@@ -11,4 +11,4 @@ PICTURES := 1
 CPU := RV32IM
 CLOCK_MHZ := 100
 DISPLAY := bochs-display
-SCENES := head:17 head450:38 head836:33 sheet:25 pile:3 box:60 car walker:35 door:22 crusher:2 conveyor:12 gears:2 screw:2 newton:6 dominoes:1 cards:1 arch:1 bowl:5 pour espresso:33 espresso-fine:26
+SCENES := head:17 head450:37 head836:33 sheet:25 pile:3 box:60 car walker:35 door:22 crusher:2 conveyor:12 gears:3 screw:2 newton:7 dominoes:1 cards arch:1 bowl:5 pour espresso:33 espresso-fine:25

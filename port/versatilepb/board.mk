@@ -8,5 +8,5 @@ ICOUNT_SHIFT := 10
 CPU := ARM926EJ-S
 CLOCK_MHZ := 210
 DISPLAY := LCD 512 x 512
-SCENES := head:35 head450:60 head836:58 sheet:41 pile:8 box:60 car:1 walker:47 lockstep door:43 crusher:3 conveyor:18 gears:4 screw:4 newton:12 dominoes:3 cards:2 arch:2 bowl:9 pour:1 espresso:48 espresso-fine:42
+SCENES := head:35 head450:60 head836:57 sheet:41 pile:8 box:60 car:1 walker:47 lockstep door:42 crusher:3 conveyor:18 gears:5 screw:4 newton:14 dominoes:3 cards:1 arch:2 bowl:9 pour:1 espresso:48 espresso-fine:41
 PICTURES := 1
