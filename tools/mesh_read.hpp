@@ -204,6 +204,21 @@ inline void check_finite(const Point &p)
     }
 }
 
+/* assimp fills a list that a text PLY cuts off with zeros, and cuts a polygon in time that grows with the square of its corners. A
+ * polygon round holes passes some vertices twice. */
+inline void check_corners(const aiMesh &mesh)
+{
+    for (unsigned i = 0; i < mesh.mNumFaces; i++) {
+        const unsigned corners = mesh.mFaces[i].mNumIndices;
+
+        if (corners / 2 > mesh.mNumVertices) {
+            throw Refusal("a face has " + std::to_string(corners) + " corners, and the mesh " +
+                          std::to_string(mesh.mNumVertices) +
+                          " vertices: the file is damaged; export the mesh again");
+        }
+    }
+}
+
 inline void join_mesh(Soup &soup, const aiMesh &in, const aiMatrix4x4 &m, double scale)
 {
     const uint32_t base = static_cast<uint32_t>(soup.points.size());
@@ -384,6 +399,7 @@ inline const aiScene &read_scene(Assimp::Importer &importer, const std::string &
         for (unsigned k = 0; k < mesh.mNumVertices; k++) {
             check_finite({mesh.mVertices[k].x, mesh.mVertices[k].y, mesh.mVertices[k].z});
         }
+        check_corners(mesh);
     }
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (!scene) {
