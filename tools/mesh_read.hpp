@@ -204,8 +204,10 @@ inline void check_finite(const Point &p)
     }
 }
 
-/* assimp fills a list that a text PLY cuts off with zeros, and cuts a polygon in time that grows with the square of its corners. A
- * polygon round holes passes some vertices twice. */
+/*
+ * assimp fills a list that a text PLY cuts off with zeros, up to any count, and would take hours to
+ * cut that polygon into triangles. A polygon round holes passes some vertices twice.
+ */
 inline void check_corners(const aiMesh &mesh)
 {
     for (unsigned i = 0; i < mesh.mNumFaces; i++) {
