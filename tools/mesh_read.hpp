@@ -205,7 +205,7 @@ inline void check_finite(const Point &p)
 }
 
 /*
- * assimp fills a list that a text PLY cuts off with zeros, up to any count, and would take hours to
+ * assimp fills a list that a text PLY cuts off with zeros, up to any count. It takes minutes to
  * cut that polygon into triangles. A polygon round holes passes some vertices twice.
  */
 inline void check_corners(const aiMesh &mesh)
