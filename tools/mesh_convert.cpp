@@ -12,6 +12,7 @@
  * It runs on the host, so it may use floating point.
  */
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -282,9 +283,10 @@ int convert_apart(Options options)
         return WEXITSTATUS(status);
     }
     std::fprintf(stderr,
-                 "carom-mesh: %s: cannot be read: the library that reads it failed; the file is "
+                 "carom-mesh: %s: cannot be read: the library that reads it %s; the file is "
                  "damaged, export it again, e.g. as OBJ\n",
-                 options.in.c_str());
+                 options.in.c_str(),
+                 WTERMSIG(status) == SIGVTALRM ? "does not come to an end" : "failed");
     return 1;
 }
 

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <sys/time.h>
+
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -348,6 +350,31 @@ class Complaints : public Assimp::LogStream
     std::string &text_;
 };
 
+/*
+ * Ends the process by SIGVTALRM when reading takes more of the processor's time than any file needs:
+ * assimp may not come back from a damaged one. A whole file takes less than a second a megabyte.
+ */
+class TimeLimit
+{
+  public:
+    explicit TimeLimit(const std::string &path)
+    {
+        set(10 + 4 * time_t(std::filesystem::file_size(path) >> 20));
+    }
+    ~TimeLimit()
+    {
+        set(0);
+    }
+
+  private:
+    static void set(time_t seconds)
+    {
+        const itimerval once = {{0, 0}, {seconds, 0}};
+
+        setitimer(ITIMER_VIRTUAL, &once, nullptr);
+    }
+};
+
 struct LoggerEnd {
     ~LoggerEnd()
     {
@@ -378,6 +405,7 @@ inline const aiScene &read_scene(Assimp::Importer &importer, const std::string &
                                  size_t &polygons)
 {
     std::string complaints;
+    const TimeLimit limit(path);
     const LoggerEnd end; /* declared first, so that it ends before the text that the logger writes
                           * to is gone */
 
