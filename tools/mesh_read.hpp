@@ -405,13 +405,13 @@ inline const aiScene &read_scene(Assimp::Importer &importer, const std::string &
                                  size_t &polygons)
 {
     std::string complaints;
-    const TimeLimit limit(path);
     const LoggerEnd end; /* declared first, so that it ends before the text that the logger writes
                           * to is gone */
 
     Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(new Complaints(complaints),
                                                Assimp::Logger::Err | Assimp::Logger::Warn);
+    const TimeLimit limit(path);
     const aiScene *scene = importer.ReadFile(path, 0);
 
     if (!scene || !scene->mRootNode) {
